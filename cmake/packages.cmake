@@ -1,0 +1,35 @@
+# Finds what we build on. LCM has no CMake package; PCL's would pull in VTK and Qt, of which we use
+# nothing, so both are found by name, as targets of their own.
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(Protobuf REQUIRED)
+find_package(GTest REQUIRED)
+find_package(PNG REQUIRED)
+find_package(Threads REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+find_path(LCM_INCLUDE_DIR lcm/lcm.h REQUIRED)
+find_library(LCM_LIBRARY lcm REQUIRED)
+find_program(LCM_GEN lcm-gen REQUIRED)
+add_library(lcm INTERFACE)
+target_include_directories(lcm SYSTEM INTERFACE ${LCM_INCLUDE_DIR})
+target_link_libraries(lcm INTERFACE ${LCM_LIBRARY})
+
+find_path(ZSTD_INCLUDE_DIR zstd.h REQUIRED)
+find_library(ZSTD_LIBRARY zstd REQUIRED)
+add_library(zstd INTERFACE)
+target_include_directories(zstd SYSTEM INTERFACE ${ZSTD_INCLUDE_DIR})
+target_link_libraries(zstd INTERFACE ${ZSTD_LIBRARY})
+
+find_path(TURBOJPEG_INCLUDE_DIR turbojpeg.h REQUIRED)
+find_library(TURBOJPEG_LIBRARY turbojpeg REQUIRED)
+add_library(turbojpeg INTERFACE)
+target_include_directories(turbojpeg SYSTEM INTERFACE ${TURBOJPEG_INCLUDE_DIR})
+target_link_libraries(turbojpeg INTERFACE ${TURBOJPEG_LIBRARY})
+
+find_path(PCL_INCLUDE_DIR pcl/point_types.h PATH_SUFFIXES pcl-1.13 pcl-1.12 pcl REQUIRED)
+foreach(component common io kdtree search features filters segmentation sample_consensus)
+  find_library(PCL_${component}_LIBRARY pcl_${component} REQUIRED)
+  add_library(pcl_${component} INTERFACE)
+  target_include_directories(pcl_${component} SYSTEM INTERFACE ${PCL_INCLUDE_DIR})
+  target_link_libraries(pcl_${component} INTERFACE ${PCL_${component}_LIBRARY} Eigen3::Eigen)
+endforeach()

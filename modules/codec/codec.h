@@ -1,0 +1,46 @@
+#pragma once
+
+#include <stdexcept>
+
+#include "lcmtypes/channels.h"
+#include "modules/geometry/depth_image.h"
+#include "modules/geometry/feature_cloud.h"
+#include "modules/geometry/solid.h"
+#include "modules/geometry/tabletop.h"
+
+// Messages to core types and back: the only place that knows both.
+namespace declutter::codec {
+
+// A message whose content cannot be meant: counts that disagree, numbers that are not finite or out
+// of range, data that does not decompress. what() names the field and its value.
+class BadMessage : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// No message on the wire is larger [byte].
+inline constexpr int kMaxMessageBytes = 190'000;
+
+depth_frame_t Encode(const DepthFrame& frame);
+DepthFrame Decode(const depth_frame_t& message);
+
+// Thins the object points regularly until the message fits, and says so in it.
+tabletop_t Encode(const Tabletop& tabletop);
+Tabletop Decode(const tabletop_t& message);
+
+// Thins the points regularly until the message fits, and says so in it. Normals, kappa, curvature
+// and r_min are quantised in the steps that the message states.
+feature_cloud_t Encode(const FeatureCloud& features);
+FeatureCloud Decode(const feature_cloud_t& message);
+
+hypothesis_list_t Encode(const HypothesisList& list);
+HypothesisList Decode(const hypothesis_list_t& message);
+
+object_list_t Encode(const ObjectList& list);
+ObjectList Decode(const object_list_t& message);
+
+// Lowers the JPEG quality until the message fits.
+color_frame_t Encode(const FrameHeader& header, const ColorImage& image);
+ColorImage Decode(const color_frame_t& message);
+
+}  // namespace declutter::codec

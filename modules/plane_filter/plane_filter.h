@@ -1,0 +1,23 @@
+#pragma once
+
+#include "modules/geometry/depth_image.h"
+#include "modules/geometry/tabletop.h"
+#include "modules/plane_filter/plane_filter.pb.h"
+
+namespace declutter {
+
+// Finds the support planes of a depth image and keeps what stands on them (paper, section 3, steps
+// i and ii).
+class PlaneFilter {
+ public:
+  explicit PlaneFilter(const PlaneFilterConfig& config);
+
+  // The tabletop of a frame in its camera frame C. A frame without a plane, or with an error, gives
+  // a tabletop without planes and without object points.
+  Tabletop Filter(const DepthFrame& frame) const;
+
+ private:
+  PlaneFilterConfig config_;
+};
+
+}  // namespace declutter
