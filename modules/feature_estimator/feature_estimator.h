@@ -6,8 +6,8 @@
 
 namespace declutter {
 
-// Normals, curvature, minimum radius (paper mode), horizontal curvature (default mode) and connected
-// components of the object points (paper, section 3, steps iii to v).
+// Normals, curvature, minimum radius (paper mode), horizontal curvature (default mode) and
+// connected components of the object points (paper, section 3, steps iii to v).
 class FeatureEstimator {
  public:
   explicit FeatureEstimator(const FeatureEstimatorConfig& config);

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "modules/geometry/tabletop.h"
+
+namespace declutter {
+
+// Positions in C of the object pixels of a tabletop, on the smallest grid that holds them all,
+// thinned pixels closed up, surrounded by a margin that no window around a pixel leaves.
+struct PointImage {
+  // Coordinate of pixels without a point: no point of a scene is near it.
+  static constexpr float kFar = 1e6F;
+  // Points processed side by side; rows can be read that far beyond the grid.
+  static constexpr int kLanes = 8;
+
+  int width = 0;               // [px] of the grid
+  int height = 0;              // [px]
+  int thinning = 1;            // image pixels from one grid pixel to the next
+  int first_u = 0;             // [px] image column of the grid's first column
+  int first_v = 0;             // [px] image row of the grid's first row
+  float fx = 0;                // [px] of the grid
+  float fy = 0;                // [px]
+  int margin = 0;              // [px] at all sides
+  int stride = 0;              // elements from one row to the next
+  std::vector<float> x, y, z;  // [m] kFar where there is no point
+
+  bool empty() const { return width == 0; }
+  // Element of grid pixel (i, j), 0 <= i < width, 0 <= j < height.
+  size_t Index(int i, int j) const {
+    return static_cast<size_t>(j + margin) * static_cast<size_t>(stride) +
+           static_cast<size_t>(i + margin);
+  }
+  bool HasPoint(size_t index) const { return z[index] < kFar; }
+};
+
+// The points of all object pixels; windows of radius max_radius_m stay inside the margin.
+PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m);
+
+// The image window of all points within a metric radius of any of a few adjacent points: rows
+// -num_rows .. num_rows, in each of them columns -Columns(row) .. Columns(row).
+class SphereWindow {
+ public:
+  // Around the points in elements [begin, begin + PointImage::kLanes) of one row.
+  SphereWindow(const PointImage& points, size_t begin, float radius_m);
+
+  int num_rows() const { return num_rows_; }
+  int Columns(int row) const;
+
+ private:
+  float slope_ = 0;  // half width of the window at z = 1
+  float fx_ = 0;
+  float inverse_fy_ = 0;
+  int margin_ = 0;
+  int num_rows_ = 0;
+};
+
+}  // namespace declutter
