@@ -1,0 +1,52 @@
+#include "modules/geometry/convex_hull.h"
+
+#include <algorithm>
+
+namespace declutter {
+namespace {
+
+using Eigen::Vector2d;
+
+double Cross(const Vector2d& o, const Vector2d& a, const Vector2d& b) {
+  return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
+}
+
+// Appends point to the chain, which turns left only; keep first_size points of it.
+void AppendLeftTurn(const Vector2d& point, size_t first_size, std::vector<Vector2d>* chain) {
+  while (chain->size() > first_size &&
+         Cross((*chain)[chain->size() - 2], chain->back(), point) <= 0) {
+    chain->pop_back();
+  }
+  chain->push_back(point);
+}
+
+}  // namespace
+
+// Monotone chain (A. M. Andrew, 1979).
+std::vector<Vector2d> ConvexHull(std::vector<Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return {};
+  std::vector<Vector2d> hull;
+  for (const Vector2d& point : points) AppendLeftTurn(point, 1, &hull);
+  const size_t lower_size = hull.size();
+  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) {
+    AppendLeftTurn(*point, lower_size, &hull);
+  }
+  hull.pop_back();
+  if (hull.size() < 3) hull.clear();
+  return hull;
+}
+
+ConvexRegion::ConvexRegion(const std::vector<Vector2d>& hull, double margin_m) {
+  for (size_t i = 0; i < hull.size(); ++i) {
+    const Vector2d along = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
+    const Vector2d inward(-along.y(), along.x());
+    edges_.push_back(
+        Eigen::Vector3d(inward.x(), inward.y(), margin_m - inward.dot(hull[i])).cast<float>());
+  }
+}
+
+}  // namespace declutter

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace declutter {
+
+// Convex hull of points of a plane, counter-clockwise, without collinear points. Fewer than three
+// points that are not collinear give an empty hull.
+std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points);
+
+// The inside of a convex polygon, as one inequality per edge.
+class ConvexRegion {
+ public:
+  // hull is counter-clockwise; margin_m > 0 moves every edge outward.
+  ConvexRegion(const std::vector<Eigen::Vector2d>& hull, double margin_m);
+
+  // False for every point when the hull was empty.
+  bool Contains(float x, float y) const {
+    for (const Eigen::Vector3f& edge : edges_) {
+      if (edge.x() * x + edge.y() * y + edge.z() < 0) return false;
+    }
+    return !edges_.empty();
+  }
+
+ private:
+  std::vector<Eigen::Vector3f> edges_;  // inward unit normal, offset [m]
+};
+
+}  // namespace declutter

@@ -1,0 +1,87 @@
+#include "modules/geometry/image_components.h"
+
+#include <cmath>
+#include <utility>
+
+namespace declutter {
+namespace {
+
+// Disjoint sets; the root of a set is its smallest element.
+class DisjointSets {
+ public:
+  int32_t Add() {
+    parent_.push_back(static_cast<int32_t>(parent_.size()));
+    return parent_.back();
+  }
+  int32_t Root(int32_t i) {
+    while (parent_[static_cast<size_t>(i)] != i) {
+      parent_[static_cast<size_t>(i)] =
+          parent_[static_cast<size_t>(parent_[static_cast<size_t>(i)])];
+      i = parent_[static_cast<size_t>(i)];
+    }
+    return i;
+  }
+  void Join(int32_t i, int32_t j) {
+    i = Root(i);
+    j = Root(j);
+    if (i > j) std::swap(i, j);
+    parent_[static_cast<size_t>(j)] = i;
+  }
+  size_t size() const { return parent_.size(); }
+
+ private:
+  std::vector<int32_t> parent_;
+};
+
+// Replaces provisional labels by consecutive ones and counts their pixels.
+void Renumber(DisjointSets* sets, ImageComponents* components) {
+  std::vector<int32_t> number(sets->size(), -1);
+  for (size_t i = 0; i < number.size(); ++i) {
+    const size_t root = static_cast<size_t>(sets->Root(static_cast<int32_t>(i)));
+    if (root == i) {
+      number[i] = static_cast<int32_t>(components->num_pixels.size());
+      components->num_pixels.push_back(0);
+    } else {
+      number[i] = number[root];
+    }
+  }
+  for (int32_t& label : components->label) {
+    if (label < 0) continue;
+    label = number[static_cast<size_t>(label)];
+    ++components->num_pixels[static_cast<size_t>(label)];
+  }
+}
+
+}  // namespace
+
+ImageComponents LabelComponents(int width, int height, const std::vector<uint8_t>& mask,
+                                const std::vector<float>& values, float max_step) {
+  ImageComponents components;
+  components.label.assign(mask.size(), -1);
+  int32_t* label = components.label.data();
+  DisjointSets sets;
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const int i = v * width + u;
+      if (!mask[static_cast<size_t>(i)]) continue;
+      const float value = values[static_cast<size_t>(i)];
+      const auto join = [&](int j) {
+        if (label[j] < 0 || std::abs(values[static_cast<size_t>(j)] - value) > max_step) return;
+        if (label[i] < 0) {
+          label[i] = label[j];
+        } else if (label[i] != label[j]) {
+          sets.Join(label[i], label[j]);
+        }
+      };
+      if (u > 0) join(i - 1);
+      if (v > 0) join(i - width);
+      if (v > 0 && u > 0) join(i - width - 1);
+      if (v > 0 && u + 1 < width) join(i - width + 1);
+      if (label[i] < 0) label[i] = sets.Add();
+    }
+  }
+  Renumber(&sets, &components);
+  return components;
+}
+
+}  // namespace declutter

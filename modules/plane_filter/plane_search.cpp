@@ -1,0 +1,144 @@
+#include "modules/plane_filter/plane_search.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "modules/geometry/image_components.h"
+
+namespace declutter {
+namespace {
+
+// Pixels of a sample lie in a window of this half width: far-apart pixels rarely share a plane.
+constexpr int kSampleReach = 14;
+
+// Uniform in [0, size), the same on every standard library.
+int Draw(std::mt19937_64* random, int size) {
+  return static_cast<int>((*random)() % static_cast<uint64_t>(size));
+}
+
+std::optional<InversePlane> PlaneThrough(const InverseDepth& grid,
+                                         const std::array<Eigen::Vector2i, 3>& pixels) {
+  Eigen::Matrix3d rays;
+  Eigen::Vector3d values;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2i& pixel = pixels[static_cast<size_t>(i)];
+    rays.row(i) << grid.ray_x[static_cast<size_t>(pixel.x())],
+        grid.ray_y[static_cast<size_t>(pixel.y())], 1.0;
+    values[i] = grid.values[grid.Index(pixel.x(), pixel.y())];
+  }
+  if (std::abs(rays.determinant()) < 1e-6) return std::nullopt;
+  const Eigen::Vector3f plane = (rays.inverse() * values).cast<float>();
+  return InversePlane{plane.x(), plane.y(), plane.z()};
+}
+
+// Three pixels near each other with a measurement; nullopt when the draw met a gap.
+std::optional<InversePlane> SamplePlane(const InverseDepth& grid, std::mt19937_64* random) {
+  std::array<Eigen::Vector2i, 3> pixels;
+  for (int i = 0; i < 3; ++i) {
+    Eigen::Vector2i& pixel = pixels[static_cast<size_t>(i)];
+    if (i == 0) {
+      pixel = {Draw(random, grid.width), Draw(random, grid.height)};
+    } else {
+      pixel = pixels[0] + Eigen::Vector2i(Draw(random, 2 * kSampleReach + 1) - kSampleReach,
+                                          Draw(random, 2 * kSampleReach + 1) - kSampleReach);
+    }
+    if (pixel.x() < 0 || pixel.x() >= grid.width || pixel.y() < 0 || pixel.y() >= grid.height ||
+        grid.values[grid.Index(pixel.x(), pixel.y())] <= 0) {
+      return std::nullopt;
+    }
+  }
+  return PlaneThrough(grid, pixels);
+}
+
+int CountInliers(const InverseDepth& grid, const InversePlane& plane, float band) {
+  int count = 0;
+  for (int v = 0; v < grid.height; ++v) {
+    const float row = plane.b * grid.ray_y[static_cast<size_t>(v)] + plane.c;
+    const float* values = &grid.values[grid.Index(0, v)];
+    for (int u = 0; u < grid.width; ++u) {
+      const float residual = values[u] - (plane.a * grid.ray_x[static_cast<size_t>(u)] + row);
+      count += (values[u] > 0) & (std::abs(residual) <= band);
+    }
+  }
+  return count;
+}
+
+std::optional<InversePlane> BestSample(const InverseDepth& grid, int num_samples, float band,
+                                       std::mt19937_64* random) {
+  std::optional<InversePlane> best;
+  int best_count = 0;
+  // Draws that meet a gap are repeated, but not for ever.
+  for (int sampled = 0, drawn = 0; sampled < num_samples && drawn < 20 * num_samples; ++drawn) {
+    const std::optional<InversePlane> plane = SamplePlane(grid, random);
+    if (!plane) continue;
+    ++sampled;
+    const int count = CountInliers(grid, *plane, band);
+    if (count > best_count) {
+      best_count = count;
+      best = plane;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+PixelMask CoherentRegion(const InverseDepth& image, const PixelMask& inliers,
+                         int min_region_pixels) {
+  PixelMask amid(inliers.size());
+  for (int v = 1; v + 1 < image.height; ++v) {
+    for (int u = 1; u + 1 < image.width; ++u) {
+      if (!inliers[image.Index(u, v)]) continue;
+      int count = 0;
+      for (int dv = -1; dv <= 1; ++dv) {
+        const uint8_t* row = &inliers[image.Index(u, v + dv)];
+        count += row[-1] + row[0] + row[1];
+      }
+      amid[image.Index(u, v)] = count >= 7;
+    }
+  }
+  // The inliers are in one plane: whether pixels touch in the image is all that counts.
+  const ImageComponents components =
+      LabelComponents(image.width, image.height, amid, image.values, HUGE_VALF);
+  for (size_t i = 0; i < amid.size(); ++i) {
+    if (amid[i]) {
+      amid[i] =
+          components.num_pixels[static_cast<size_t>(components.label[i])] >= min_region_pixels;
+    }
+  }
+  return amid;
+}
+
+std::vector<PlaneCandidate> FindPlanes(const InverseDepth& grid, const PlaneFilterConfig& config) {
+  std::vector<PlaneCandidate> candidates;
+  std::mt19937_64 random(config.seed());
+  const float band = static_cast<float>(config.inlier_sigmas() * config.inverse_depth_sigma());
+  const int min_pixels = std::max(
+      3, static_cast<int>(config.min_plane_fraction() * static_cast<double>(grid.values.size())));
+  InverseDepth rest = grid;
+  const int max_attempts = 2 * config.max_planes();
+  for (int attempt = 0; attempt < max_attempts; ++attempt) {
+    if (static_cast<int>(candidates.size()) == config.max_planes()) break;
+    std::optional<InversePlane> plane = BestSample(rest, config.num_samples(), band, &random);
+    if (!plane) break;
+    for (int i = 0; plane && i < 3; ++i) {
+      plane = FitInliers(rest, PixelMask(rest.values.size(), 1), *plane, band);
+    }
+    if (!plane) continue;
+    const PixelMask inliers = PlaneInliers(rest, *plane, band);
+    if (std::count(inliers.begin(), inliers.end(), 1) < min_pixels) break;
+    PlaneCandidate candidate{*plane, CoherentRegion(rest, inliers, min_pixels / 4), 0};
+    candidate.num_pixels =
+        static_cast<int>(std::count(candidate.region.begin(), candidate.region.end(), 1));
+    for (size_t i = 0; i < inliers.size(); ++i) {
+      if (inliers[i]) rest.values[i] = 0;
+    }
+    if (candidate.num_pixels >= min_pixels / 2) candidates.push_back(std::move(candidate));
+  }
+  return candidates;
+}
+
+}  // namespace declutter

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "modules/geometry/convex_hull.h"
+#include "modules/plane_filter/inverse_depth.h"
+
+namespace declutter {
+
+// Convex hull of the marked pixels' places in the plane: x and y of its table frame T [m],
+// counter-clockwise seen from the camera.
+std::vector<Eigen::Vector2d> HullInPlane(const InverseDepth& image, const InversePlane& plane,
+                                         const PixelMask& region);
+
+// The space over and under a convex polygon of a plane (paper, section 3, step i).
+class Prism {
+ public:
+  // hull_T as HullInPlane gives it; margin_m moves its edges outward.
+  Prism(const InversePlane& plane, const std::vector<Eigen::Vector2d>& hull_T, double margin_m);
+
+  // Whether the point with z = 1 / value on ray (x, y, 1) of C is in the prism.
+  bool Contains(float x, float y, float value) const {
+    const float z = 1 / value;
+    return base_.Contains(z * (x_axis_.x() * x + x_axis_.y() * y + x_axis_.z()),
+                          z * (y_axis_.x() * x + y_axis_.y() * y + y_axis_.z()));
+  }
+
+ private:
+  Eigen::Vector3f x_axis_;  // of T in C; the origin of T is under the camera centre
+  Eigen::Vector3f y_axis_;
+  ConvexRegion base_;
+};
+
+}  // namespace declutter
