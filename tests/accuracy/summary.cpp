@@ -1,0 +1,204 @@
+#include "tests/accuracy/summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/accuracy/solid_comparison.h"
+
+namespace declutter {
+namespace {
+
+constexpr double kMaxErrorM = 0.020;
+constexpr double kMmPerM = 1000;
+constexpr double kDegreesPerRad = 180 / M_PI;
+
+// Value below which the given share of the sorted values lies, interpolated.
+double Quantile(const std::vector<double>& sorted, double share) {
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto low = static_cast<size_t>(place);
+  const size_t high = std::min(low + 1, sorted.size() - 1);
+  const double rest = place - static_cast<double>(low);
+  return (1 - rest) * sorted[low] + rest * sorted[high];
+}
+
+void Add(ErrorTable* table, const std::string& name, double error) {
+  for (auto& [known, errors] : *table) {
+    if (known == name) {
+      errors.push_back(error);
+      return;
+    }
+  }
+  table->push_back({name, {error}});
+}
+
+// Indices of the extents, longest first.
+std::array<int, 3> LongestFirst(const Eigen::Vector3d& size) {
+  std::array<int, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] > size[b]; });
+  return order;
+}
+
+bool IsObserved(const ObjectModel& model, int axis) {
+  return model.evidence[static_cast<size_t>(axis)] == Evidence::kObserved;
+}
+
+void AddExtent(ErrorTable* table, const std::string& name, double error_m, bool observed) {
+  Add(table, name + " mm", kMmPerM * error_m);
+  if (observed) Add(table, name + " observed mm", kMmPerM * error_m);
+}
+
+void AddSizeErrors(const ObjectModel& model, const Eigen::Vector3d& true_size, ErrorTable* table) {
+  const Eigen::Vector3d& size = model.solid.size;
+  if (model.solid.shape == Shape::kCylinder) {
+    Add(table, "cylinder radius mm", kMmPerM * 0.5 * (size.x() - true_size.x()));
+    AddExtent(table, "cylinder height", size.z() - true_size.z(), IsObserved(model, 2));
+    return;
+  }
+  static const char* const kNames[] = {"box long", "box middle", "box short"};
+  const std::array<int, 3> order = LongestFirst(size);
+  const std::array<int, 3> true_order = LongestFirst(true_size);
+  for (size_t i = 0; i < 3; ++i) {
+    const double error = size[order[i]] - true_size[true_order[i]];
+    AddExtent(table, kNames[i], error, IsObserved(model, order[i]));
+    AddExtent(table, "box extents", error, IsObserved(model, order[i]));
+  }
+}
+
+void AddPoseErrors(const ObjectModel& model, const SolidError& error, ErrorTable* table) {
+  const std::string shape = ShapeName(model.solid.shape);
+  Add(table, shape + " centre mm", kMmPerM * error.center_C.norm());
+  Add(table, shape + " axis deg", kDegreesPerRad * error.axis_rad);
+  Add(table, shape + " volume IoU", error.volume_iou);
+  if (model.solid.shape != Shape::kBox) return;
+  Add(table, "box yaw deg", kDegreesPerRad * error.yaw_rad);
+  static const char* const kNames[] = {"box width", "box depth", "box height"};
+  for (size_t i = 0; i < 3; ++i) {
+    AddExtent(table, kNames[i], error.extent[static_cast<Eigen::Index>(i)],
+              IsObserved(model, error.axis[i]));
+  }
+}
+
+std::vector<RecallBin> Bins(const std::vector<std::string>& names) {
+  std::vector<RecallBin> bins;
+  for (const std::string& name : names) bins.push_back({name, {}, {}});
+  return bins;
+}
+
+// Bin of a value by the upper limits of all bins but the last two: beyond, and unknown.
+size_t BinOf(const std::optional<double>& value, const std::vector<double>& limits) {
+  if (!value) return limits.size() + 1;
+  return static_cast<size_t>(std::upper_bound(limits.begin(), limits.end(), *value) -
+                             limits.begin());
+}
+
+class Summarizer {
+ public:
+  Summarizer() {
+    summary_.by_distance =
+        Bins({"< 0.7 m", "0.7-0.9 m", "0.9-1.1 m", "1.1-1.4 m", ">= 1.4 m", "unknown distance"});
+    summary_.by_visible_fraction =
+        Bins({"< 25 % visible", "25-50 %", "50-75 %", ">= 75 %", "unknown fraction"});
+  }
+
+  void AddFrame(const ScoredFrame& frame) {
+    if (!frame.has_result) summary_.without_result.push_back(frame.truth.frame);
+    GroupCount& group = summary_.groups[frame.truth.group];
+    ++group.num_frames;
+    for (size_t t = 0; t < frame.truth.objects.size(); ++t) AddObject(frame, t, &group);
+    for (size_t m = 0; m < frame.found.objects.size(); ++m) {
+      const ModelScore& score = frame.score.models[m];
+      const auto shape = static_cast<size_t>(frame.found.objects[m].solid.shape);
+      if (score.verdict == Verdict::kFalse) ++group.shapes[shape].num_false;
+      if (score.verdict == Verdict::kNeutral) ++group.num_neutral;
+    }
+  }
+
+  Summary Finish() {
+    for (const auto& [name, group] : summary_.groups) {
+      summary_.total.num_frames += group.num_frames;
+      summary_.total.num_neutral += group.num_neutral;
+      for (size_t i = 0; i < 2; ++i) summary_.total.shapes[i] += group.shapes[i];
+    }
+    summary_.median_iou = SpreadOf(ious_).median;
+    std::stable_sort(summary_.errors.begin(), summary_.errors.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    return summary_;
+  }
+
+ private:
+  void AddObject(const ScoredFrame& frame, size_t t, GroupCount* group) {
+    const TrueObject& object = frame.truth.objects[t];
+    const ObjectScore& score = frame.score.objects[t];
+    if (!object.shape) return;
+    const auto shape = static_cast<size_t>(*object.shape);
+    ShapeCount& count = group->shapes[shape];
+    const int found = score.model ? 1 : 0;
+    if (object.scope == Scope::kSoft) {
+      ++count.num_soft;
+      count.num_soft_found += found;
+    }
+    if (object.scope != Scope::kCore) return;
+    ++count.num_core;
+    count.num_found += found;
+    if (object.solid) ++summary_.num_exact;
+    static const std::vector<double> kDistances{0.7, 0.9, 1.1, 1.4};
+    static const std::vector<double> kFractions{0.25, 0.5, 0.75};
+    for (RecallBin* bin :
+         {&summary_.by_distance[BinOf(object.distance_m, kDistances)],
+          &summary_.by_visible_fraction[BinOf(object.visible_fraction, kFractions)]}) {
+      ++bin->num_core[shape];
+      bin->num_found[shape] += found;
+    }
+    if (score.model) AddMatch(object, frame.found.objects[*score.model], score.iou);
+  }
+
+  void AddMatch(const TrueObject& object, const ObjectModel& model, double iou) {
+    if (iou > 0) ious_.push_back(iou);
+    if (object.size) AddSizeErrors(model, *object.size, &summary_.errors);
+    if (!object.solid) return;
+    const SolidError error = CompareSolids(model.solid, *object.solid);
+    AddPoseErrors(model, error, &summary_.errors);
+    summary_.num_within_20_mm += IsWithin(error, kMaxErrorM) ? 1 : 0;
+  }
+
+  Summary summary_;
+  std::vector<double> ious_;
+};
+
+}  // namespace
+
+double ShapeCount::Recall() const {
+  return num_core == 0 ? 1.0 : static_cast<double>(num_found) / num_core;
+}
+
+double ShapeCount::Precision() const {
+  const int num_models = num_found + num_false;
+  return num_models == 0 ? 1.0 : static_cast<double>(num_found) / num_models;
+}
+
+ShapeCount& ShapeCount::operator+=(const ShapeCount& other) {
+  num_core += other.num_core;
+  num_found += other.num_found;
+  num_false += other.num_false;
+  num_soft += other.num_soft;
+  num_soft_found += other.num_soft_found;
+  return *this;
+}
+
+Spread SpreadOf(const std::vector<double>& errors) {
+  if (errors.empty()) return {};
+  std::vector<double> sorted = errors;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> absolute;
+  for (const double error : errors) absolute.push_back(std::abs(error));
+  std::sort(absolute.begin(), absolute.end());
+  return {errors.size(), Quantile(sorted, 0.5), Quantile(absolute, 0.5), Quantile(absolute, 0.9)};
+}
+
+Summary Summarize(const std::vector<ScoredFrame>& frames) {
+  Summarizer summarizer;
+  for (const ScoredFrame& frame : frames) summarizer.AddFrame(frame);
+  return summarizer.Finish();
+}
+
+}  // namespace declutter
