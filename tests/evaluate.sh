@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Measures how well objects are found: tests/evaluate.sh [--set module.field=value]... [DIR]...
+# Each DIR is a folder of scenes with truth; without one, the real recordings in DECLUTTER_DATA and
+# freshly rendered dense scenes. --set goes to the graph. Reports lie in logs/evaluate/.
+set -euo pipefail
+here="$(cd "$(dirname "$0")/.." && pwd)"
+"$here/launcher/setup.sh"
+
+settings=()
+folders=()
+while (($# > 0)); do
+  case "$1" in
+    --set)
+      (($# > 1)) || { echo "evaluate.sh: --set needs a value" >&2; exit 2; }
+      settings+=(--set "$2")
+      shift 2
+      ;;
+    --*)
+      echo "evaluate.sh: unknown option $1" >&2
+      exit 2
+      ;;
+    *)
+      folders+=("$(cd "$1" && pwd)")
+      shift
+      ;;
+  esac
+done
+
+cd "$here"
+out=logs/evaluate
+rm -rf "$out"
+mkdir -p "$out"
+
+if ((${#folders[@]} == 0)); then
+  if [[ -d "${DECLUTTER_DATA:-}" ]]; then
+    folders+=("$DECLUTTER_DATA")
+  else
+    echo "evaluate.sh: DECLUTTER_DATA is no folder: only rendered scenes are evaluated" >&2
+  fi
+  for sensor in real_sensor white; do
+    build/bin/scene_renderer "config/scenes/dense_$sensor.textproto" "$out/scenes/$sensor" --count 10
+    folders+=("$out/scenes/$sensor")
+  done
+fi
+
+status=0
+for folder in "${folders[@]}"; do
+  name="$(basename "$folder")"
+  while [[ -e "$out/$name" ]]; do name+=_; done
+  echo "=== $folder"
+  build/bin/launcher run config/recordings.textproto --set kinect_source.input="$folder" \
+    --set object_exporter.output="$out/$name" "${settings[@]}" || status=1
+  build/bin/score_objects "$folder" "$out/$name" --json "$out/$name.json" --html "$out/$name.html" \
+    || status=1
+  echo "report: $out/$name.html"
+done
+exit "$status"
