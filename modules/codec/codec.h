@@ -21,6 +21,20 @@ class BadMessage : public std::runtime_error {
 // No message on the wire is larger [byte].
 inline constexpr int kMaxMessageBytes = 190'000;
 
+// Content that does not fit in kMaxMessageBytes however it is coded. what() names the message type
+// and its size.
+class MessageTooLarge : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Every Encode throws std::logic_error when given what no Decode would accept and our own code must
+// not make: an image of another size than its camera's, an image beside an error or neither, ids
+// that are not 1 .. number of objects or exceed 255, values that cannot be quantised.
+// Every Decode throws BadMessage. An image is empty exactly when header.error is set, and so are
+// the lists.
+
+// Lossless.
 depth_frame_t Encode(const DepthFrame& frame);
 DepthFrame Decode(const depth_frame_t& message);
 
@@ -28,8 +42,8 @@ DepthFrame Decode(const depth_frame_t& message);
 tabletop_t Encode(const Tabletop& tabletop);
 Tabletop Decode(const tabletop_t& message);
 
-// Thins the points regularly until the message fits, and says so in it. Normals, kappa, curvature
-// and r_min are quantised in the steps that the message states.
+// Thins the points regularly until the message fits, and says so in it. Normals come back within
+// 1.0 degrees; kappa, curvature and r_min in the steps of feature_planes.h, saturated.
 feature_cloud_t Encode(const FeatureCloud& features);
 FeatureCloud Decode(const feature_cloud_t& message);
 
