@@ -18,6 +18,14 @@ namespace declutter::runtime {
 
 class Shell;
 
+// Handlers may be lambdas: the message type follows from the channel alone.
+template <typename... Messages>
+struct HandlerOf {
+  using type = std::function<void(const Messages&...)>;
+};
+template <typename... Messages>
+using Handler = typename HandlerOf<Messages...>::type;
+
 template <typename Message>
 class Publisher {
  public:
@@ -42,14 +50,13 @@ class Bus {
   explicit Bus(Shell* shell) : shell_(shell) {}
 
   template <typename Message>
-  void Subscribe(const Channel<Message>& channel, std::function<void(const Message&)> handler);
+  void Subscribe(const Channel<Message>& channel, Handler<Message> handler);
 
   // handler gets pairs with the same utime, where b was computed from a. What waits for its partner
   // is bounded. A part that is sent again makes its pair again; an a with other content under the
   // same utime is another frame and waits for a new b.
   template <typename A, typename B>
-  void SubscribeJoined(const Channel<A>& a, const Channel<B>& b,
-                       std::function<void(const A&, const B&)> handler);
+  void SubscribeJoined(const Channel<A>& a, const Channel<B>& b, Handler<A, B> handler);
 
   template <typename Message>
   Publisher<Message> Advertise(const Channel<Message>& channel);
@@ -74,12 +81,12 @@ class Bus {
 
  private:
   void AddSubscription(std::vector<Port> ports, PartsHandler handler);
-  void AddOutput(Port port);
+  std::string AddOutput(Port port);  // its channel on the wire
 
   Shell* shell_;
 };
 
-void PublishEncoded(Shell* shell, const std::string& channel, Bytes bytes);
+void PublishEncoded(Shell* shell, const std::string& channel, const Bytes& message);
 
 template <typename Message>
 Port PortOf(const Channel<Message>& channel) {
@@ -102,19 +109,18 @@ void Publisher<Message>::Publish(const Message& message) const {
   const int size = message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   if (size < 0) throw std::logic_error(channel_ + ": message does not encode");
   bytes.resize(static_cast<std::size_t>(size));
-  PublishEncoded(shell_, channel_, std::move(bytes));
+  PublishEncoded(shell_, channel_, bytes);
 }
 
 template <typename Message>
-void Bus::Subscribe(const Channel<Message>& channel, std::function<void(const Message&)> handler) {
+void Bus::Subscribe(const Channel<Message>& channel, Handler<Message> handler) {
   AddSubscription({PortOf(channel)}, [handler = std::move(handler)](const Parts& parts) {
     handler(DecodePart<Message>(parts[0]));
   });
 }
 
 template <typename A, typename B>
-void Bus::SubscribeJoined(const Channel<A>& a, const Channel<B>& b,
-                          std::function<void(const A&, const B&)> handler) {
+void Bus::SubscribeJoined(const Channel<A>& a, const Channel<B>& b, Handler<A, B> handler) {
   AddSubscription({PortOf(a), PortOf(b)}, [handler = std::move(handler)](const Parts& parts) {
     handler(DecodePart<A>(parts[0]), DecodePart<B>(parts[1]));
   });
@@ -122,8 +128,7 @@ void Bus::SubscribeJoined(const Channel<A>& a, const Channel<B>& b,
 
 template <typename Message>
 Publisher<Message> Bus::Advertise(const Channel<Message>& channel) {
-  AddOutput(PortOf(channel));
-  return {shell_, channel.name};
+  return Publisher<Message>(shell_, AddOutput(PortOf(channel)));
 }
 
 }  // namespace declutter::runtime

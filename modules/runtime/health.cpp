@@ -1,0 +1,70 @@
+#include "modules/runtime/health.h"
+
+#include <algorithm>
+
+namespace declutter::runtime {
+
+void Health::Took() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++num_in_;
+}
+
+void Health::Handled(std::int64_t utime, double processing_ms) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++num_handled_;
+  ++num_timed_;
+  last_utime_ = utime;
+  processing_ms_ += processing_ms;
+  max_processing_ms_ = std::max(max_processing_ms_, processing_ms);
+}
+
+void Health::Published(std::int64_t utime) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++num_out_;
+  last_utime_ = utime;
+}
+
+void Health::Skipped(std::int64_t num_frames) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  num_skipped_ += num_frames;
+}
+
+void Health::Rejected() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++num_rejected_;
+}
+
+void Health::Complain(const std::string& text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  complaint_ = text;
+}
+
+module_status_t Health::Report() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  module_status_t status{};
+  status.num_in = num_in_;
+  status.num_out = num_out_;
+  status.num_skipped = num_skipped_;
+  status.num_rejected = num_rejected_;
+  status.last_utime = last_utime_;
+  status.processing_ms = num_timed_ > 0 ? processing_ms_ / num_timed_ : 0;
+  status.max_processing_ms = max_processing_ms_;
+  status.message = complaint_;
+  num_timed_ = 0;
+  processing_ms_ = 0;
+  max_processing_ms_ = 0;
+  complaint_.clear();
+  return status;
+}
+
+std::int64_t Health::num_handled() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return num_handled_;
+}
+
+std::int64_t Health::num_rejected() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return num_rejected_;
+}
+
+}  // namespace declutter::runtime

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+#include "lcmtypes/channels.h"
+
+namespace declutter::runtime {
+
+// What a process counts for its status message. May be used from all threads.
+class Health {
+ public:
+  void Took();
+  void Handled(std::int64_t utime, double processing_ms);
+  void Published(std::int64_t utime);
+  void Skipped(std::int64_t num_frames);
+  void Rejected();
+  void Complain(const std::string& text);
+
+  // Counts of the whole run, times and complaint since the last report. Who the process is, its
+  // state and the time of the report are left to the caller.
+  module_status_t Report();
+
+  std::int64_t num_handled() const;
+  std::int64_t num_rejected() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::int64_t num_in_ = 0;
+  std::int64_t num_out_ = 0;
+  std::int64_t num_skipped_ = 0;
+  std::int64_t num_rejected_ = 0;
+  std::int64_t num_handled_ = 0;
+  std::int64_t last_utime_ = 0;
+  int num_timed_ = 0;
+  double processing_ms_ = 0;
+  double max_processing_ms_ = 0;
+  std::string complaint_;
+};
+
+}  // namespace declutter::runtime

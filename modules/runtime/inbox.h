@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+
+#include "modules/runtime/part.h"
+
+namespace declutter::runtime {
+
+// A complete frame of a subscription, waiting for the worker.
+struct Delivery {
+  std::size_t subscription;
+  std::int64_t utime;  // [us] of the sensor
+  Parts parts;
+};
+
+// What the I/O thread puts in and the worker takes out, oldest first. At the sensor's rate a newer
+// frame takes the place of the one waiting for the same subscription: an overloaded module skips
+// frames instead of lagging behind. In a lossless run every frame waits its turn.
+class Inbox {
+ public:
+  Inbox(bool lossless, std::size_t capacity) : lossless_(lossless), capacity_(capacity) {}
+
+  // False when a frame was lost for it: an older one that it replaced, or itself when a lossless
+  // inbox is full.
+  bool Put(Delivery delivery);
+
+  std::optional<Delivery> Take();
+
+  // Waits for a delivery until deadline or until Close().
+  std::optional<Delivery> TakeUntil(std::chrono::steady_clock::time_point deadline);
+
+  // Wakes the worker for the last time: a lossless inbox is still emptied, else what waits is
+  // dropped.
+  void Close();
+
+  bool closed() const;
+  std::size_t size() const;
+
+ private:
+  std::optional<Delivery> TakeLocked();
+
+  const bool lossless_;
+  const std::size_t capacity_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Delivery> waiting_;
+  bool closed_ = false;
+};
+
+}  // namespace declutter::runtime
