@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "modules/scene_renderer/scene.pb.h"
+
+namespace declutter {
+
+// A scene from protobuf text. `name` is the file's, for messages. Throws std::invalid_argument with
+// every fault, one "name:line:column: what is wrong" each: syntax, unknown fields, values outside
+// their range.
+Scene ParseScene(const std::string& text, const std::string& name);
+
+// The scene as text that ParseScene reads back equal.
+std::string PrintScene(const Scene& scene);
+
+}  // namespace declutter
