@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-namespace declutter {
+namespace declutter::accuracy {
 namespace {
 
 using nlohmann::json;
@@ -84,4 +84,4 @@ std::map<std::string, ObjectList> ReadExportedObjects(const std::filesystem::pat
   return frames;
 }
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

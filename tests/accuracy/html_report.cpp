@@ -5,7 +5,7 @@
 
 #include "tests/accuracy/text_report.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 namespace {
 
 std::string Escape(const std::string& text) {
@@ -67,4 +67,4 @@ std::string HtmlReport(const std::vector<ScoredFrame>& frames, const Summary& su
   return out.str();
 }
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace declutter {
+namespace declutter::accuracy {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -89,4 +89,4 @@ json JsonReport(const std::vector<ScoredFrame>& frames, const Summary& summary) 
   return report;
 }
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

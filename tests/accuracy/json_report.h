@@ -6,9 +6,9 @@
 #include "tests/accuracy/scored_frame.h"
 #include "tests/accuracy/summary.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 
 // The summary, and of each frame every object and model with what it counts as.
 nlohmann::ordered_json JsonReport(const std::vector<ScoredFrame>& frames, const Summary& summary);
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

@@ -14,7 +14,7 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace declutter;  // NOLINT: a program of its own
+using namespace declutter::accuracy;  // NOLINT: a program of its own
 
 constexpr char kUsage[] =
     "score_objects DIR OUTDIR [--table] [--json REPORT] [--html PAGE] [--min_found N]\n"

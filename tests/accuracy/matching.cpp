@@ -7,7 +7,7 @@
 #include "tests/accuracy/pixel_overlap.h"
 #include "tests/accuracy/solid_comparison.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
@@ -108,10 +108,18 @@ class FrameMatcher {
       if (model.matches || object.model) continue;
       object.model = pair.model;
       object.iou = IsLabelled(pair.object) ? pair.quality : 0.0;
-      const bool is_core = truth_.objects[pair.object].scope == Scope::kCore;
-      model = {is_core ? Verdict::kRight : Verdict::kNeutral, pair.object, true, object.iou,
-               is_core ? "" : "models what it is, " + ScopeName(truth_.objects[pair.object].scope)};
+      model = {VerdictOn(pair.object), pair.object, true, object.iou, WhyNeutral(pair.object)};
     }
+  }
+
+  Verdict VerdictOn(size_t t) const {
+    return truth_.objects[t].scope == Scope::kCore ? Verdict::kRight : Verdict::kNeutral;
+  }
+
+  std::string WhyNeutral(size_t t) const {
+    const TrueObject& object = truth_.objects[t];
+    return object.scope == Scope::kCore ? ""
+                                        : "is " + ScopeName(object.scope) + " " + Label(object);
   }
 
   void Set(size_t m, Verdict verdict, std::optional<size_t> object, const std::string& why) {
@@ -157,7 +165,7 @@ class FrameMatcher {
     const TrueObject& object = truth_.objects[t];
     const std::string on = " on " + Label(object);
     if (object.scope == Scope::kUnscored || object.scope == Scope::kSoft) {
-      return Set(m, Verdict::kNeutral, t, ScopeName(object.scope) + on);
+      return Set(m, Verdict::kNeutral, t, "on " + ScopeName(object.scope) + " " + Label(object));
     }
     if (score_.objects[t].model) {
       const ObjectModel& first = found_.objects[*score_.objects[t].model];
@@ -179,7 +187,7 @@ class FrameMatcher {
     const bool lying_cylinder =
         solid.shape == Shape::kCylinder && TiltOf(solid, truth_.up_C) >= kMinLyingTilt;
     if (IsSameKind(m, t) || (lying_cylinder && !object.shape)) {
-      return Set(m, Verdict::kNeutral, t, "models what it is, out on " + Label(object));
+      return Set(m, Verdict::kNeutral, t, "is " + ScopeName(object.scope) + " " + Label(object));
     }
     Set(m, Verdict::kFalse, t, "on out object " + Label(object));
   }
@@ -215,4 +223,4 @@ FrameScore MatchObjects(const SceneTruth& truth, const ObjectList& found) {
   return FrameMatcher(truth, found).Match();
 }
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

@@ -7,7 +7,7 @@
 #include "modules/geometry/solid.h"
 #include "tests/accuracy/scene_truth.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 
 // What a model counts as. Right: the match of a core object. Neutral: neither way.
 enum class Verdict : int8_t { kRight, kNeutral, kFalse };
@@ -39,4 +39,4 @@ struct FrameScore {
 // std::runtime_error.
 FrameScore MatchObjects(const SceneTruth& truth, const ObjectList& found);
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

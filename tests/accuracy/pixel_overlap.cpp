@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace declutter {
+namespace declutter::accuracy {
 namespace {
 
 constexpr size_t kNone = 256;
@@ -94,4 +94,4 @@ std::optional<size_t> ModelAt(const ObjectList& found, const Eigen::Vector2i& se
   return best;
 }
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

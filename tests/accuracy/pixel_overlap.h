@@ -6,7 +6,7 @@
 #include "modules/geometry/solid.h"
 #include "tests/accuracy/scene_truth.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 
 // Pixels that models and true objects have, and share; all counts in px.
 struct PixelOverlap {
@@ -27,4 +27,4 @@ PixelOverlap MeasureOverlap(const SceneTruth& truth, const ObjectList& found);
 std::optional<size_t> ModelAt(const ObjectList& found, const Eigen::Vector2i& seed_px,
                               int max_distance_px);
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace declutter {
+namespace declutter::accuracy {
 namespace {
 
 using nlohmann::json;
@@ -144,4 +144,4 @@ std::string ScopeName(Scope scope) {
 
 std::string ShapeName(Shape shape) { return shape == Shape::kBox ? "box" : "cylinder"; }
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

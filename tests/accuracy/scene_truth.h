@@ -9,7 +9,7 @@
 
 #include "modules/geometry/solid.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 
 // What is asked for a true object: core must be found, soft may be, of out no standing box and no
 // upright cylinder may be reported, unscored has a truth too doubtful to count.
@@ -50,4 +50,4 @@ SceneTruth ParseSceneTruth(const nlohmann::json& scene);
 std::string ScopeName(Scope scope);
 std::string ShapeName(Shape shape);
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

@@ -8,7 +8,7 @@
 #include "modules/imaging/png_file.h"
 #include "tests/accuracy/exported_objects.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,4 +92,4 @@ std::vector<ScoredFrame> ScoreFolder(const fs::path& scene_dir, const fs::path& 
   return frames;
 }
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

@@ -8,7 +8,7 @@
 #include "tests/accuracy/matching.h"
 #include "tests/accuracy/scene_truth.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 
 // A scene, what was found in it, and how the two compare. Label images are dropped once compared.
 struct ScoredFrame {
@@ -24,4 +24,4 @@ struct ScoredFrame {
 std::vector<ScoredFrame> ScoreFolder(const std::filesystem::path& scene_dir,
                                      const std::filesystem::path& output_dir);
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

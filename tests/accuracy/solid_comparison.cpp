@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace declutter {
+namespace declutter::accuracy {
 namespace {
 
 constexpr int kGrid = 40;  // points along each axis: shares to better than 0.01
@@ -100,4 +100,4 @@ bool IsWithin(const SolidError& error, double tolerance_m) {
   return error.center_C.norm() <= tolerance_m && error.extent.cwiseAbs().maxCoeff() <= tolerance_m;
 }
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

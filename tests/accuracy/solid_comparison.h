@@ -5,7 +5,7 @@
 
 #include "modules/geometry/solid.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 
 // [rad] angle between the support normal up_C and the axis of a cylinder, or the nearest axis of a
 // box: 0 when it stands.
@@ -32,4 +32,4 @@ SolidError CompareSolids(const Solid& model, const Solid& truth);
 // Centre and every extent (of a cylinder: radius and height) within the tolerance.
 bool IsWithin(const SolidError& error, double tolerance_m);
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

@@ -5,7 +5,7 @@
 
 #include "tests/accuracy/solid_comparison.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 namespace {
 
 constexpr double kMaxErrorM = 0.020;
@@ -201,4 +201,4 @@ Summary Summarize(const std::vector<ScoredFrame>& frames) {
   return summarizer.Finish();
 }
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

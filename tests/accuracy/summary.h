@@ -8,7 +8,7 @@
 
 #include "tests/accuracy/scored_frame.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 
 // Objects and models of one shape.
 struct ShapeCount {
@@ -61,4 +61,4 @@ struct Summary {
 };
 Summary Summarize(const std::vector<ScoredFrame>& frames);
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

@@ -6,7 +6,7 @@
 
 #include "tests/accuracy/solid_comparison.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 namespace {
 
 __attribute__((format(printf, 1, 2))) std::string Format(const char* format, ...) {
@@ -118,12 +118,12 @@ void WriteRemarks(const std::vector<ScoredFrame>& frames, std::ostream& out) {
   static const char* const kKinds[] = {"miss", "false", "neutral"};
   for (const ScoredFrame& frame : frames) {
     const char* name = frame.truth.frame.c_str();
-    if (!frame.has_result) out << Format("error   %-16s no line in objects.jsonl\n", name);
+    if (!frame.has_result) out << Format("error   %-28s no line in objects.jsonl\n", name);
     if (!frame.found.header.error.empty()) {
-      out << Format("error   %-16s %s\n", name, frame.found.header.error.c_str());
+      out << Format("error   %-28s %s\n", name, frame.found.header.error.c_str());
     }
     for (const Remark& remark : RemarksOn(frame)) {
-      out << Format("%-7s %-16s %s\n", kKinds[static_cast<size_t>(remark.kind)], name,
+      out << Format("%-7s %-28s %s\n", kKinds[static_cast<size_t>(remark.kind)], name,
                     remark.text.c_str());
     }
   }
@@ -160,4 +160,4 @@ void WriteTotals(const Summary& summary, std::ostream& out) {
   WriteErrors(summary.errors, out);
 }
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

@@ -7,7 +7,7 @@
 #include "tests/accuracy/scored_frame.h"
 #include "tests/accuracy/summary.h"
 
-namespace declutter {
+namespace declutter::accuracy {
 
 // One line of a report about an object that was missed or a model that is not right.
 struct Remark {
@@ -29,4 +29,4 @@ void WriteComparison(const std::vector<ScoredFrame>& frames, std::ostream& out);
 // Recall, precision and errors.
 void WriteTotals(const Summary& summary, std::ostream& out);
 
-}  // namespace declutter
+}  // namespace declutter::accuracy

@@ -1,0 +1,62 @@
+#include "tests/accuracy/scene_truth.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace declutter::accuracy {
+namespace {
+
+TEST(ParseSceneTruth, ReadsACylinderWithLabelsAndProductSize) {
+  const SceneTruth truth = ParseSceneTruth(nlohmann::json::parse(R"({
+    "width": 640, "height": 480, "table_plane": {"normal_cam": [0, -0.6, -0.8], "d": 0.6},
+    "objects": [{"id": 5, "labels": [50, 51], "product": "cup", "shape": "cylinder",
+                 "pose": "axis_vertical", "scope": "core", "seed_px": [395, 318],
+                 "circle_fit": {"radius": 0.04, "axis_point_cam": [0.1, 0.1, 0.77]},
+                 "product_size": {"radius": 0.036, "height": 0.098, "tol": 0.006}}]})"));
+  ASSERT_EQ(truth.objects.size(), 1u);
+  const TrueObject& cup = truth.objects[0];
+  EXPECT_EQ(cup.id, 5);
+  EXPECT_EQ(cup.name, "cup");
+  EXPECT_EQ(cup.shape, Shape::kCylinder);
+  EXPECT_EQ(cup.stance, Stance::kStanding);
+  EXPECT_EQ(cup.labels, (std::vector<int>{50, 51}));
+  EXPECT_EQ(*cup.size, Eigen::Vector3d(0.072, 0.072, 0.098));
+  EXPECT_EQ(*cup.distance_m, 0.77);
+  EXPECT_FALSE(cup.solid);
+  EXPECT_NEAR(truth.up_C.z(), -0.8, 1e-12);
+}
+
+TEST(ParseSceneTruth, CountsIdsFromOneWhereThereAreNone) {
+  const SceneTruth truth = ParseSceneTruth(nlohmann::json::parse(R"({
+    "width": 640, "height": 480,
+    "objects": [{"name": "a", "shape": "box", "scope": "core"},
+                {"name": "b", "shape": "other", "scope": "out", "pose": "tilted"}]})"));
+  EXPECT_EQ(truth.objects[1].id, 2);
+  EXPECT_FALSE(truth.objects[1].shape);
+  EXPECT_EQ(truth.objects[1].stance, Stance::kLeaning);
+  EXPECT_EQ(truth.objects[1].scope, Scope::kOut);
+}
+
+TEST(ParseSceneTruth, LeavesOutOfTheScoreWhatAKnownProblemNames) {
+  const SceneTruth truth = ParseSceneTruth(nlohmann::json::parse(R"({
+    "width": 640, "height": 480,
+    "known_problems": ["pixels without a point are 0", "object 7 is two things; do not score it"],
+    "objects": [{"id": 6, "shape": "box", "scope": "core"},
+                {"id": 7, "shape": "other", "scope": "out"}]})"));
+  EXPECT_EQ(truth.objects[0].scope, Scope::kCore);
+  EXPECT_EQ(truth.objects[1].scope, Scope::kUnscored);
+}
+
+TEST(ParseSceneTruth, RefusesAScopeItDoesNotKnow) {
+  EXPECT_THROW(ParseSceneTruth(nlohmann::json::parse(R"({
+    "width": 640, "height": 480, "objects": [{"shape": "box", "scope": "cor"}]})")),
+               std::runtime_error);
+}
+
+TEST(ParseSceneTruth, RefusesASceneWithoutItsSize) {
+  EXPECT_THROW(ParseSceneTruth(nlohmann::json::parse(R"({"objects": []})")), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace declutter::accuracy

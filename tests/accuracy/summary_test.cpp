@@ -1,0 +1,99 @@
+#include "tests/accuracy/summary.h"
+
+#include <gtest/gtest.h>
+
+namespace declutter::accuracy {
+namespace {
+
+TrueObject CoreBox(const Eigen::Vector3d& size) {
+  TrueObject object;
+  object.shape = Shape::kBox;
+  object.shape_name = "box";
+  object.size = size;
+  return object;
+}
+
+ObjectModel BoxModel(const Eigen::Vector3d& size) {
+  ObjectModel model;
+  model.solid.size = size;
+  return model;
+}
+
+const std::vector<double>* Errors(const Summary& summary, const std::string& name) {
+  for (const auto& [known, errors] : summary.errors) {
+    if (known == name) return &errors;
+  }
+  return nullptr;
+}
+
+// One frame: a core box that is found, one that is missed, and a false cylinder.
+ScoredFrame OneOfEach() {
+  ScoredFrame frame;
+  frame.truth.frame = "shelf_a";
+  frame.truth.group = "shelf";
+  frame.has_result = true;
+  frame.truth.objects = {CoreBox({0.30, 0.10, 0.20}), CoreBox({0.1, 0.1, 0.1})};
+  frame.found.objects = {BoxModel({0.101, 0.302, 0.203}), BoxModel({0.1, 0.1, 0.1})};
+  frame.found.objects[1].solid.shape = Shape::kCylinder;
+  frame.score.objects = {{0, 0.9, ""}, {std::nullopt, 0.0, "no model on it"}};
+  frame.score.models = {{Verdict::kRight, 0, true, 0.9, ""},
+                        {Verdict::kFalse, std::nullopt, false, 0.0, "on nothing"}};
+  return frame;
+}
+
+TEST(Summarize, CountsByGroupAndShape) {
+  const Summary summary = Summarize({OneOfEach()});
+  const GroupCount& group = summary.groups.at("shelf");
+  EXPECT_EQ(group.shapes[0].num_core, 2);
+  EXPECT_EQ(group.shapes[0].num_found, 1);
+  EXPECT_DOUBLE_EQ(group.shapes[0].Recall(), 0.5);
+  EXPECT_DOUBLE_EQ(group.shapes[0].Precision(), 1.0);
+  EXPECT_EQ(group.shapes[1].num_false, 1);
+  EXPECT_DOUBLE_EQ(group.shapes[1].Precision(), 0.0);
+  EXPECT_EQ(summary.total.shapes[0].num_core, 2);
+  EXPECT_DOUBLE_EQ(summary.median_iou, 0.9);
+}
+
+TEST(Summarize, ComparesExtentsOfBoxesLongestFirst) {
+  const Summary summary = Summarize({OneOfEach()});
+  EXPECT_NEAR(Errors(summary, "box long mm")->at(0), 2, 1e-9);
+  EXPECT_NEAR(Errors(summary, "box middle mm")->at(0), 3, 1e-9);
+  EXPECT_NEAR(Errors(summary, "box short mm")->at(0), 1, 1e-9);
+}
+
+TEST(Summarize, KeepsAssumedExtentsOutOfTheObservedOnes) {
+  ScoredFrame frame = OneOfEach();
+  frame.found.objects[0].evidence = {Evidence::kObserved, Evidence::kAssumed, Evidence::kFreeSpace};
+  const Summary summary = Summarize({frame});
+  EXPECT_EQ(Errors(summary, "box extents mm")->size(), 3u);
+  EXPECT_EQ(Errors(summary, "box extents observed mm")->size(), 1u);
+  EXPECT_EQ(Errors(summary, "box long observed mm"), nullptr);
+}
+
+TEST(Summarize, NamesFramesWithoutResult) {
+  ScoredFrame frame = OneOfEach();
+  frame.has_result = false;
+  EXPECT_EQ(Summarize({frame}).without_result, std::vector<std::string>{"shelf_a"});
+}
+
+TEST(Summarize, CountsMatchesWithin20MmAmongObjectsOfExactTruth) {
+  ScoredFrame frame = OneOfEach();
+  frame.truth.objects[0].solid = BoxModel({0.101, 0.302, 0.224}).solid;
+  frame.truth.objects[1].solid = BoxModel({0.1, 0.1, 0.1}).solid;
+  Summary summary = Summarize({frame});
+  EXPECT_EQ(summary.num_exact, 2);
+  EXPECT_EQ(summary.num_within_20_mm, 0);
+  frame.truth.objects[0].solid->size.z() = 0.222;
+  EXPECT_EQ(Summarize({frame}).num_within_20_mm, 1);
+}
+
+TEST(SpreadOf, GivesSignedAndAbsoluteQuantiles) {
+  const Spread spread = SpreadOf({-4, -3, -2, 1, 10});
+  EXPECT_DOUBLE_EQ(spread.median, -2);
+  EXPECT_DOUBLE_EQ(spread.median_abs, 3);
+  EXPECT_DOUBLE_EQ(spread.p90_abs, 7.6);
+  EXPECT_EQ(spread.num, 5u);
+}
+
+}  // namespace
+}  // namespace declutter::accuracy
