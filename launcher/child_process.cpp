@@ -1,0 +1,147 @@
+#include "launcher/child_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <stdexcept>
+#include <utility>
+
+namespace declutter::launcher {
+namespace {
+
+constexpr int kExecFailed = 127;
+
+// A pipe whose ends no other child inherits.
+std::pair<int, int> OpenPipe() {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(strerror(errno));
+  return {ends[0], ends[1]};
+}
+
+void WriteAll(int fd, const std::string& text) {
+  for (size_t done = 0; done < text.size();) {
+    const ssize_t written = write(fd, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return;  // nothing better to do with a line that nobody takes
+    done += static_cast<size_t>(written);
+  }
+}
+
+// Between fork and exec: only calls that are safe in a child of a process with threads.
+[[noreturn]] void Become(char* const argv[], pid_t parent, int log_fd, int stderr_fd,
+                         int fault_fd) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // The parent may have died before the line above: then nobody would end us.
+  if (getppid() != parent) _exit(kExecFailed);
+  setpgid(0, 0);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  signal(SIGPIPE, SIG_DFL);
+  const int null_fd = open("/dev/null", O_RDONLY);
+  dup2(null_fd, STDIN_FILENO);
+  dup2(log_fd, STDOUT_FILENO);
+  dup2(stderr_fd, STDERR_FILENO);
+  execv(argv[0], argv);
+  const int fault = errno;
+  if (write(fault_fd, &fault, sizeof(fault)) < 0) _exit(kExecFailed);
+  _exit(kExecFailed);
+}
+
+// The errno of a failed exec, 0 when it went well and the pipe was closed by it.
+int ExecFault(int fd) {
+  int fault = 0;
+  ssize_t num_read;
+  do {
+    num_read = read(fd, &fault, sizeof(fault));
+  } while (num_read < 0 && errno == EINTR);
+  return num_read == sizeof(fault) ? fault : 0;
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& log_path) {
+  log_fd_ = open(log_path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (log_fd_ < 0) throw std::runtime_error(log_path + ": " + strerror(errno));
+  std::vector<char*> argv;
+  for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  const auto [read_end, write_end] = OpenPipe();
+  const auto [fault_read_end, fault_write_end] = OpenPipe();
+  stderr_fd_ = read_end;
+  fcntl(stderr_fd_, F_SETFL, O_NONBLOCK);
+  const pid_t parent = getpid();
+  pid_ = fork();
+  if (pid_ == 0) Become(argv.data(), parent, log_fd_, write_end, fault_write_end);
+  close(write_end);
+  close(fault_write_end);
+  const int fault = pid_ < 0 ? errno : ExecFault(fault_read_end);
+  close(fault_read_end);
+  if (fault == 0) return;
+  if (pid_ > 0) waitpid(pid_, nullptr, 0);
+  close(stderr_fd_);
+  close(log_fd_);
+  throw std::runtime_error(command[0] + ": " + strerror(fault));
+}
+
+ChildProcess::~ChildProcess() {
+  if (pid_ > 0) {
+    kill(-pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  close(stderr_fd_);
+  close(log_fd_);
+}
+
+bool ChildProcess::ForwardStderr() {
+  char buffer[4096];
+  for (;;) {
+    const ssize_t num_read = read(stderr_fd_, buffer, sizeof(buffer));
+    if (num_read < 0) return errno == EAGAIN || errno == EINTR;
+    if (num_read == 0) break;
+    line_.append(buffer, static_cast<size_t>(num_read));
+    const size_t end = line_.rfind('\n');
+    if (end == std::string::npos) continue;
+    Forward(line_.substr(0, end + 1));
+    line_.erase(0, end + 1);
+  }
+  if (!line_.empty()) Forward(std::exchange(line_, {}) + "\n");
+  return false;
+}
+
+void ChildProcess::Forward(const std::string& text) {
+  WriteAll(log_fd_, text);
+  WriteAll(STDERR_FILENO, text);
+}
+
+void ChildProcess::Signal(int signal) {
+  if (pid_ > 0) kill(-pid_, signal);
+}
+
+std::optional<Ending> ChildProcess::Reap() {
+  siginfo_t state = {};
+  if (pid_ < 0) return std::nullopt;
+  if (waitid(P_PID, static_cast<id_t>(pid_), &state, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+      state.si_pid != pid_) {
+    return std::nullopt;
+  }
+  // While it is unreaped its number belongs to its group: what it left there can be ended safely.
+  kill(-pid_, SIGKILL);
+  int status = 0;
+  waitpid(pid_, &status, 0);
+  pid_ = -1;
+  ForwardStderr();
+  if (WIFEXITED(status)) {
+    const int code = WEXITSTATUS(status);
+    return Ending{code, false, "exit code " + std::to_string(code)};
+  }
+  const int signal = WTERMSIG(status);
+  return Ending{1, true, "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")"};
+}
+
+}  // namespace declutter::launcher

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace declutter::launcher {
+
+// How a process ended.
+struct Ending {
+  int code = 0;            // of exit(); 1 when a signal ended it
+  bool by_signal = false;  //
+  std::string how;         // for people: "exit code 1", "signal 11 (Segmentation fault)"
+};
+
+// A child in a process group of its own that dies with the thread that started it, however that
+// ends. Its stdin is empty; what it prints goes to a log file, stderr to ours as well.
+class ChildProcess {
+ public:
+  // Starts command[0], a path, with the arguments command[1...], appending to log_path. Throws
+  // std::runtime_error when the program or the log cannot be opened. Call from the main thread.
+  ChildProcess(const std::vector<std::string>& command, const std::string& log_path);
+  ~ChildProcess();  // kills what is left of its group
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  pid_t pid() const { return pid_; }  // -1 after its end
+
+  // Readable when the child has written to stderr.
+  int stderr_fd() const { return stderr_fd_; }
+
+  // Copies what the child has written to stderr, by whole lines. False at its end.
+  bool ForwardStderr();
+
+  // Sends a signal to the child and all it has started.
+  void Signal(int signal);
+
+  // How it ended, once; nothing while it runs. Ends what it has left behind in its group.
+  std::optional<Ending> Reap();
+
+ private:
+  void Forward(const std::string& text);
+
+  pid_t pid_ = -1;
+  int stderr_fd_ = -1;
+  int log_fd_ = -1;
+  std::string line_;  // the last one, until it is complete
+};
+
+}  // namespace declutter::launcher

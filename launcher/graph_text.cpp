@@ -1,0 +1,133 @@
+#include "launcher/graph_text.h"
+
+#include <google/protobuf/empty.pb.h>
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+
+#include <regex>
+#include <sstream>
+#include <utility>
+
+#include "modules/runtime/config.h"
+#include "modules/runtime/parameter_check.h"
+#include "modules/runtime/suggestion.h"
+
+namespace declutter::launcher {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::TextFormat;
+using runtime::ConfigFault;
+
+class FaultCollector : public google::protobuf::io::ErrorCollector {
+ public:
+  void AddError(int line, google::protobuf::io::ColumnNumber column,
+                const std::string& text) override {
+    faults.push_back({line + 1, column + 1, text});
+  }
+
+  std::vector<ConfigFault> faults;
+};
+
+// Takes every Any for a message without fields.
+class AnyIsEmpty : public TextFormat::Finder {
+ public:
+  const Descriptor* FindAnyType(const google::protobuf::Message&, const std::string&,
+                                const std::string&) const override {
+    return google::protobuf::Empty::descriptor();
+  }
+};
+
+const Descriptor* FindType(const std::string& full_name, const ProgramCatalog* catalog) {
+  const auto* own = google::protobuf::DescriptorPool::generated_pool();
+  const Descriptor* type = catalog == nullptr ? nullptr : catalog->FindType(full_name);
+  return type != nullptr ? type : own->FindMessageTypeByName(full_name);
+}
+
+// The parser's own message does not say which field was meant, and points behind its name.
+void ExplainUnknownField(const std::string& text, const ProgramCatalog* catalog,
+                         ConfigFault* fault) {
+  static const std::regex pattern("Message type \"([^\"]+)\" has no field named \"([^\"]+)\".*");
+  std::smatch match;
+  if (!std::regex_match(fault->text, match, pattern)) return;
+  const std::string type_name = match[1];
+  const std::string name = match[2];
+  const Descriptor* type = FindType(type_name, catalog);
+  fault->text = "no field named '" + name + "' in " + type_name;
+  if (type != nullptr) fault->text += runtime::Suggestion(name, runtime::FieldNames(*type));
+  std::istringstream lines(text);
+  std::string line;
+  for (int i = 0; i < fault->line; ++i) std::getline(lines, line);
+  const size_t begin = line.rfind(name, static_cast<size_t>(fault->column));
+  if (begin != std::string::npos) fault->column = static_cast<int>(begin) + 1;
+}
+
+}  // namespace
+
+GraphText::GraphText(std::string text, std::string file)
+    : text_(std::move(text)), file_(std::move(file)) {}
+
+bool GraphText::ReadModules(std::vector<Fault>* faults) {
+  return Read(AnyIsEmpty(), true, nullptr, faults);
+}
+
+bool GraphText::ReadAll(const ProgramCatalog& catalog, std::vector<Fault>* faults) {
+  if (!Read(catalog, false, &catalog, faults)) return false;
+  const auto found = runtime::CheckParameters(graph_, locations_.get());
+  for (const ConfigFault& fault : found) {
+    faults->push_back({Where(fault.line, fault.column), fault.text});
+  }
+  return found.empty();
+}
+
+bool GraphText::Read(const TextFormat::Finder& finder, bool skips_unknown,
+                     const ProgramCatalog* catalog, std::vector<Fault>* faults) {
+  FaultCollector collector;
+  locations_ = std::make_unique<TextFormat::ParseInfoTree>();
+  TextFormat::Parser parser;
+  parser.SetFinder(&finder);
+  parser.AllowUnknownField(skips_unknown);
+  parser.RecordErrorsTo(&collector);
+  parser.WriteLocationsTo(locations_.get());
+  google::protobuf::io::ArrayInputStream stream(text_.data(), static_cast<int>(text_.size()));
+  if (parser.Parse(&stream, &graph_)) return true;
+  if (collector.faults.empty()) collector.faults.push_back({1, 1, "cannot be parsed"});
+  for (ConfigFault& fault : collector.faults) {
+    ExplainUnknownField(text_, catalog, &fault);
+    faults->push_back({Where(fault.line, fault.column), fault.text});
+  }
+  return false;
+}
+
+std::string GraphText::Where(int line, int column) const {
+  return file_ + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+std::string GraphText::Where(int module, const std::string& field) const {
+  TextFormat::ParseLocation location;
+  if (const auto* tree = Locations(module)) {
+    location = tree->GetLocation(Module::descriptor()->FindFieldByName(field), -1);
+  }
+  if (location.line < 0) {
+    location = locations_->GetLocation(Graph::descriptor()->FindFieldByName("module"), module);
+  }
+  return Where(location.line + 1, location.column + 1);
+}
+
+void GraphText::CheckConfig(int module, const google::protobuf::Message& config,
+                            std::vector<Fault>* faults) const {
+  const auto* field = Module::descriptor()->FindFieldByName("config");
+  const auto* tree = Locations(module);
+  for (const ConfigFault& fault :
+       runtime::CheckParameters(config, tree == nullptr ? nullptr
+                                                        : tree->GetTreeForNested(field, -1))) {
+    faults->push_back({fault.line == 0 ? Where(module, "config") : Where(fault.line, fault.column),
+                       fault.text});
+  }
+}
+
+const TextFormat::ParseInfoTree* GraphText::Locations(int module) const {
+  return locations_->GetTreeForNested(Graph::descriptor()->FindFieldByName("module"), module);
+}
+
+}  // namespace declutter::launcher

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace declutter::launcher {
+
+// An LCM url of this machine alone, on a port that nothing uses, so that two graphs never mix, with
+// the largest receive buffer that the kernel grants up to 4 MiB.
+std::string ChooseUrl();
+
+// Proves with a message of 150 KB, more than the largest of ours needs, that the url carries
+// messages. Where it does not (no multicast route, or fragments are lost) moves this process into
+// a network of its own, which holds nothing but the loopback, and proves it there; what we start
+// later inherits it. Needs a process of one thread. Throws std::runtime_error with what was tried.
+void EnsureMulticast(const std::string& url);
+
+}  // namespace declutter::launcher

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "launcher/child_process.h"
+#include "launcher/wire.h"
+
+namespace declutter::launcher {
+
+// Something that a run starts and stops. All but Start may be called before it and after the end.
+class Process {
+ public:
+  virtual ~Process() = default;
+
+  // Throws std::runtime_error when it cannot be started.
+  virtual void Start() = 0;
+
+  // Asks it to finish what is on its way and to end.
+  virtual void Terminate() = 0;
+
+  virtual void Kill() = 0;
+
+  // Every message that the launcher hears.
+  virtual void OnMessage(const Message&) {}
+
+  // One turn of the launcher's loop has passed; now_s is monotonic.
+  virtual void OnTurn(double) {}
+
+  // True from the time when it loses no message that is sent to it.
+  virtual bool is_ready() const = 0;
+
+  // How it ended, once.
+  virtual std::optional<Ending> Reap() = 0;
+
+  // Readable when OnTurn has something to do; -1: nothing is to be read.
+  virtual int fd() const { return -1; }
+};
+
+}  // namespace declutter::launcher

@@ -1,0 +1,96 @@
+#include "launcher/recorder.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <utility>
+
+namespace declutter::launcher {
+namespace {
+
+constexpr double kMarkPeriod_s = 0.2;
+constexpr std::streamoff kTail = 1 << 20;  // [byte] of the log in which the mark is searched
+constexpr int8_t kStarting = 0;            // module_status_t::state
+constexpr int8_t kFinished = 2;
+
+bool TailHolds(const std::string& path, const std::vector<uint8_t>& mark) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  if (!file || mark.empty()) return false;
+  const std::streamoff begin = std::max<std::streamoff>(0, size - kTail);
+  std::vector<uint8_t> tail(static_cast<size_t>(size - begin));
+  file.seekg(begin);
+  file.read(reinterpret_cast<char*>(tail.data()), static_cast<std::streamsize>(tail.size()));
+  return std::search(tail.begin(), tail.end(), mark.begin(), mark.end()) != tail.end();
+}
+
+int64_t WallClock_us() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+}  // namespace
+
+Recorder::Recorder(std::vector<std::string> command, std::string log, std::string stderr_path,
+                   Wire* wire)
+    : command_(std::move(command)),
+      log_(std::move(log)),
+      stderr_path_(std::move(stderr_path)),
+      wire_(wire) {}
+
+void Recorder::Start() {
+  child_ = std::make_unique<ChildProcess>(command_, stderr_path_);
+  has_stderr_ = true;
+}
+
+void Recorder::Terminate() {
+  if (!is_ready_) return Kill();
+  is_ending_ = true;
+  mark_ = {};
+  mark_s_ = 0.0;
+}
+
+void Recorder::Kill() {
+  if (child_) child_->Signal(SIGKILL);
+}
+
+void Recorder::OnTurn(double now_s) {
+  if (has_stderr_) has_stderr_ = child_->ForwardStderr();
+  if (!child_ || is_complete_ || (is_ready_ && !is_ending_)) return;
+  if (!TailHolds(log_, mark_.bytes)) {
+    if (now_s - mark_s_ > kMarkPeriod_s) SendMark(now_s);
+    return;
+  }
+  is_ready_ = true;
+  if (!is_ending_) return;
+  is_complete_ = true;
+  child_->Signal(SIGTERM);
+}
+
+void Recorder::SendMark(double now_s) {
+  if (mark_.bytes.empty()) {
+    module_status_t status = {};
+    status.utime = WallClock_us();
+    status.module = status.program = "launcher";
+    status.pid = getpid();
+    status.state = is_ending_ ? kFinished : kStarting;
+    mark_ = EncodeStatus(status);
+  }
+  mark_s_ = now_s;
+  wire_->Publish(mark_);
+}
+
+std::optional<Ending> Recorder::Reap() {
+  auto ending = child_ ? child_->Reap() : std::nullopt;
+  if (!ending) return ending;
+  has_stderr_ = false;
+  if (ending->code == 0 && !is_complete_) return Ending{1, false, "an incomplete log " + log_};
+  return ending;
+}
+
+int Recorder::fd() const { return has_stderr_ ? child_->stderr_fd() : -1; }
+
+}  // namespace declutter::launcher

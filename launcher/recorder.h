@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launcher/process.h"
+
+namespace declutter::launcher {
+
+// lcm-logger, recording every message of a run. It gives no sign of life or of loss, and ends with
+// 0 on a full disk: so a mark of ours must appear in the log before the run starts, and another,
+// sent after the last message of the run, must be its end.
+class Recorder : public Process {
+ public:
+  // command: lcm-logger with its arguments, writing log. wire is kept.
+  Recorder(std::vector<std::string> command, std::string log, std::string stderr_path, Wire* wire);
+
+  void Start() override;
+  void Terminate() override;
+  void Kill() override;
+  void OnTurn(double now_s) override;
+  bool is_ready() const override { return is_ready_; }
+  std::optional<Ending> Reap() override;
+  int fd() const override;
+
+ private:
+  void SendMark(double now_s);
+
+  std::vector<std::string> command_;
+  std::string log_;
+  std::string stderr_path_;
+  Wire* wire_;
+  std::unique_ptr<ChildProcess> child_;
+  Message mark_;
+  double mark_s_ = 0.0;  // when it was sent last
+  bool has_stderr_ = false;
+  bool is_ready_ = false;
+  bool is_ending_ = false;
+  bool is_complete_ = false;
+};
+
+}  // namespace declutter::launcher

@@ -1,0 +1,87 @@
+#include "launcher/run.h"
+
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "launcher/find_program.h"
+#include "launcher/module_process.h"
+#include "launcher/network.h"
+#include "launcher/recorder.h"
+#include "launcher/run_folder.h"
+#include "launcher/session.h"
+#include "launcher/wire.h"
+
+namespace declutter::launcher {
+namespace {
+
+constexpr const char* kLogger = "lcm-logger";  // no module's name: these have no dash
+
+std::vector<std::string> ModuleCommand(const ResolvedModule& resolved, bool lossless,
+                                       const RunFolder& folder) {
+  const Module& module = resolved.module;
+  std::vector<std::string> command = {module.program(), "--name", module.name(), "--config",
+                                      folder.ConfigPath(module.name())};
+  for (const Remap& remap : module.remap()) {
+    command.insert(command.end(), {"--remap", remap.from() + "=" + remap.to()});
+  }
+  if (lossless) command.push_back("--lossless");
+  command.insert(command.end(), module.arg().begin(), module.arg().end());
+  return command;
+}
+
+std::unique_ptr<Process> MakeRecorder(const RunOptions& options, const RunFolder& folder,
+                                      Wire* wire) {
+  const auto logger = FindProgram(kLogger);
+  if (!logger) throw std::runtime_error(std::string(kLogger) + " is not installed");
+  // Of its flags only the long ones with = are read as documented.
+  const std::vector<std::string> command = {*logger, "--quiet", "--lcm-url=" + options.url,
+                                            options.record};
+  return std::make_unique<Recorder>(command, options.record, folder.LogPath(kLogger), wire);
+}
+
+}  // namespace
+
+std::vector<Node> PlanNodes(const ResolvedGraph& graph, bool has_recorder) {
+  std::vector<WiredModule> wiring;
+  for (const ResolvedModule& resolved : graph.modules) wiring.push_back(resolved.wiring);
+  std::vector<Node> nodes;
+  if (has_recorder) nodes.push_back({kLogger, {}});
+  for (size_t i = 0; i < graph.modules.size(); ++i) {
+    const Module& module = graph.modules[i].module;
+    Node node{
+        module.name(), {}, IsSource(wiring[i]), module.start_limit_s(), module.grace_period_s()};
+    for (const size_t consumer : Downstream(wiring, i)) {
+      node.downstream.push_back(wiring[consumer].name);
+    }
+    if (has_recorder) node.downstream.push_back(kLogger);
+    nodes.push_back(std::move(node));
+  }
+  return nodes;
+}
+
+int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
+  RunOptions options = requested;
+  if (options.url.empty()) options.url = ChooseUrl();
+  EnsureMulticast(options.url);
+  setenv("LCM_DEFAULT_URL", options.url.c_str(), 1);
+  const RunFolder folder(options.logs, graph);
+  HoldSignals();
+  Wire wire(options.url);
+  wire.Subscribe(kModuleStatus.name);
+
+  std::map<std::string, std::unique_ptr<Process>> processes;
+  for (const ResolvedModule& resolved : graph.modules) {
+    const std::string& name = resolved.module.name();
+    processes[name] = std::make_unique<ModuleProcess>(
+        name, ModuleCommand(resolved, graph.lossless, folder), folder.LogPath(name));
+  }
+  const bool has_recorder = !options.record.empty();
+  if (has_recorder) processes[kLogger] = MakeRecorder(options, folder, &wire);
+  Supervisor supervisor(PlanNodes(graph, has_recorder), graph.lossless);
+  return Session(std::move(supervisor), std::move(processes), &wire).Run();
+}
+
+}  // namespace declutter::launcher

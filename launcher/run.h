@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "launcher/resolved_graph.h"
+#include "launcher/supervisor.h"
+
+namespace declutter::launcher {
+
+struct RunOptions {
+  std::string url;     // of the network; empty: one that nobody else uses
+  std::string record;  // log to write; empty: none
+  std::string logs;    // folder of the runs' folders
+};
+
+// The processes of a graph in the order of their starts, the recorder downstream of all.
+std::vector<Node> PlanNodes(const ResolvedGraph& graph, bool has_recorder);
+
+// Runs a graph to its end; returns the exit code. Throws std::runtime_error when there is no
+// network, no folder for logs or no recorder.
+int RunGraph(const ResolvedGraph& graph, const RunOptions& options);
+
+}  // namespace declutter::launcher

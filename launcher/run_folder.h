@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "launcher/resolved_graph.h"
+
+namespace declutter::launcher {
+
+// The folder of one run: the resolved graph, each module's resolved parameters and each process's
+// log. `latest` beside it points to it.
+class RunFolder {
+ public:
+  // Makes the folder in logs, named by date, time and process number, and writes the graph into it.
+  // Throws std::runtime_error when it cannot be written.
+  RunFolder(const std::string& logs, const ResolvedGraph& graph);
+
+  std::string ConfigPath(const std::string& module) const;
+  std::string LogPath(const std::string& process) const;
+
+ private:
+  std::string path_;
+};
+
+}  // namespace declutter::launcher

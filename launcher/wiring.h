@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace declutter::launcher {
+
+// What is wrong, and where it was written: "file:line:column" or "--set module.field=value".
+struct Fault {
+  std::string where;
+  std::string what;
+};
+
+// A channel that a module publishes or consumes, and the type of its messages.
+struct Port {
+  std::string channel;
+  std::string type;
+};
+
+// A module as the channels see it, its channels named as in the graph.
+struct WiredModule {
+  std::string name;
+  std::string where;  // of its block in the graph
+  std::vector<Port> inputs;
+  std::vector<Port> outputs;
+};
+
+// The channels' faults: two publishers of one, none of one that is consumed, two types on one, a
+// cycle. What only releases a source may close a cycle; MODULE_STATUS is everybody's.
+std::vector<Fault> CheckWiring(const std::vector<WiredModule>& modules);
+
+// Indices of the modules that consume what module number index publishes, releases not counted.
+std::vector<size_t> Downstream(const std::vector<WiredModule>& modules, size_t index);
+
+// What it publishes comes from outside the graph: it consumes nothing, or it publishes depth images
+// and consumes but their objects, as these tell that a frame is through and release the next.
+bool IsSource(const WiredModule& module);
+
+}  // namespace declutter::launcher
