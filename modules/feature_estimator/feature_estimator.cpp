@@ -33,8 +33,9 @@ FeatureCloud FeatureEstimator::Estimate(const Tabletop& tabletop) const {
     r_min = EstimateMinimumRadius(points, normals, feature_radius_m, config_.rsd_num_bins(),
                                   config_.rsd_plane_radius_m());
   } else {
-    kappa = EstimateHorizontalCurvature(points, normals, tabletop.planes.front().plane.normal,
-                                        feature_radius_m, config_.max_side_tilt_rad());
+    kappa = EstimateHorizontalCurvature(
+        points, normals, tabletop.planes.front().plane.normal,
+        {feature_radius_m, config_.max_side_tilt_rad(), config_.max_kappa_residual()});
   }
   const Connection connection{config_.component_distance_m(), config_.component_distance_per_z2(),
                               config_.component_reach_px()};

@@ -7,8 +7,12 @@
 namespace declutter {
 namespace {
 
-// Neighbouring pixels share their noise, so a window this wide need not be read densely.
-constexpr int kRowsReadDensely = 10;
+// Neighbouring pixels share their noise and the pixels of their normals: a window wider than this
+// need not be read densely.
+constexpr int kRowsReadDensely = 6;
+
+// Part of the neighbours that half of a window must hold to be trusted.
+constexpr float kMinHalf = 0.125F;
 
 // Points, normals and horizontal tangents of the points on sides; kFar and zero elsewhere.
 struct SideImage {
@@ -38,8 +42,53 @@ SideImage SelectSides(const PointImage& points, const NormalImage& normals,
   return sides;
 }
 
-DECLUTTER_FOR_EACH_PROCESSOR void FitBlock(const SideImage& sides, size_t begin, float radius_m,
-                                           std::vector<float>* kappa) {
+// Sums over neighbours at offset s along the tangent whose normals have component m along it.
+struct SlopeSums {
+  Lanes n{}, s{}, m{}, ss{}, sm{};
+
+  DECLUTTER_LANES void Add(const Lanes& weight, const Lanes& offset, const Lanes& component) {
+    n += weight;
+    s += offset;
+    m += component;
+    ss += offset * offset;
+    sm += offset * component;
+  }
+};
+
+// Centred regression: an error of the normal at the point itself shifts all m alike.
+DECLUTTER_LANES void FitSlope(const SlopeSums& sums, Lanes& slope) {
+  const Lanes n = sums.n > 0 ? sums.n : 1.0F + Lanes{};
+  const Lanes variance = sums.ss - sums.s * sums.s / n;
+  slope = variance > 1e-9F ? (sums.sm - sums.s * sums.m / n) / variance : Lanes{};
+}
+
+// Mean squared distance of all m from their line.
+DECLUTTER_LANES void SquaredResidual(const SlopeSums& sums, const Lanes& mm, const Lanes& slope,
+                                     Lanes& residual) {
+  const Lanes n = sums.n > 0 ? sums.n : 1.0F + Lanes{};
+  residual = (mm - sums.m * sums.m / n - slope * (sums.sm - sums.s * sums.m / n)) / n;
+}
+
+// Over a vertical edge m is no line but a step. The half of the window on the point's own face is
+// then the one that bends less; a half with too few points says nothing.
+DECLUTTER_LANES void FitFlatterHalf(const SlopeSums& all, const SlopeSums& left, Lanes& slope) {
+  SlopeSums right;
+  right.n = all.n - left.n;
+  right.s = all.s - left.s;
+  right.m = all.m - left.m;
+  right.ss = all.ss - left.ss;
+  right.sm = all.sm - left.sm;
+  Lanes a, b;
+  FitSlope(left, a);
+  FitSlope(right, b);
+  const LaneMask is_left_thin = kMinHalf * all.n > left.n;
+  const LaneMask is_right_thin = kMinHalf * all.n > right.n;
+  const LaneMask is_left_flatter = a * a < b * b;
+  slope = ((is_left_flatter | is_right_thin) & ~is_left_thin) ? a : b;
+}
+
+DECLUTTER_LANES void SumNeighbors(const SideImage& sides, size_t begin, float radius_m,
+                                  SlopeSums& all, SlopeSums& left, Lanes& mm) {
   const PointImage& points = sides.points;
   const SphereWindow window(points, begin, radius_m);
   const int step = 1 + window.num_rows() / kRowsReadDensely;
@@ -51,8 +100,6 @@ DECLUTTER_FOR_EACH_PROCESSOR void FitBlock(const SideImage& sides, size_t begin,
   LoadLanes(&sides.tangent_x[begin], tx);
   LoadLanes(&sides.tangent_y[begin], ty);
   LoadLanes(&sides.tangent_z[begin], tz);
-  Lanes sum_s{}, sum_m{}, sum_ss{}, sum_ms{};
-  LaneMask n{};
   for (int row = -window.num_rows() / step * step; row <= window.num_rows(); row += step) {
     const int columns = window.Columns(row);
     const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + row * points.stride;
@@ -69,21 +116,35 @@ DECLUTTER_FOR_EACH_PROCESSOR void FitBlock(const SideImage& sides, size_t begin,
       y -= py;
       z -= pz;
       const LaneMask near = x * x + y * y + z * z <= max_squared_distance;
+      Lanes weight = 1.0F + Lanes{};
       Lanes s = x * tx + y * ty + z * tz;
       Lanes m = nx * tx + ny * ty + nz * tz;
+      KeepLanes(near, weight);
       KeepLanes(near, s);
       KeepLanes(near, m);
-      n -= near;
-      sum_s += s;
-      sum_m += m;
-      sum_ss += s * s;
-      sum_ms += m * s;
+      all.Add(weight, s, m);
+      mm += m * m;
+      const LaneMask is_left = s < 0;
+      KeepLanes(is_left, weight);
+      KeepLanes(is_left, s);
+      KeepLanes(is_left, m);
+      left.Add(weight, s, m);
     }
   }
-  const Lanes count = n > 0 ? __builtin_convertvector(n, Lanes) : 1.0F + Lanes{};
-  const Lanes covariance = sum_ms - sum_m * sum_s / count;
-  const Lanes variance = sum_ss - sum_s * sum_s / count;
-  Lanes slope = variance > 1e-9F ? covariance / variance : Lanes{};
+}
+
+DECLUTTER_FOR_EACH_PROCESSOR void FitBlock(const SideImage& sides, size_t begin,
+                                           const CurvatureWindow& window,
+                                           std::vector<float>* kappa) {
+  SlopeSums all, left;
+  Lanes mm{}, slope, half_slope, residual, pz;
+  SumNeighbors(sides, begin, static_cast<float>(window.radius_m), all, left, mm);
+  FitSlope(all, slope);
+  SquaredResidual(all, mm, slope, residual);
+  FitFlatterHalf(all, left, half_slope);
+  const float max_residual = static_cast<float>(window.max_residual);
+  slope = residual > max_residual * max_residual ? half_slope : slope;
+  LoadLanes(&sides.points.z[begin], pz);
   KeepLanes(pz < PointImage::kFar, slope);
   StoreLanes(slope, &(*kappa)[begin]);
 }
@@ -91,15 +152,15 @@ DECLUTTER_FOR_EACH_PROCESSOR void FitBlock(const SideImage& sides, size_t begin,
 }  // namespace
 
 std::vector<float> EstimateHorizontalCurvature(const PointImage& points, const NormalImage& normals,
-                                               const Eigen::Vector3d& up_C, double radius_m,
-                                               double max_tilt_rad) {
-  const SideImage sides = SelectSides(points, normals, up_C.cast<float>(), max_tilt_rad);
+                                               const Eigen::Vector3d& up_C,
+                                               const CurvatureWindow& window) {
+  const SideImage sides = SelectSides(points, normals, up_C.cast<float>(), window.max_tilt_rad);
   std::vector<float> kappa(points.x.size(), 0.0F);
   for (int j = 0; j < points.height; ++j) {
     for (int i = 0; i < points.width; ++i) {
       const size_t begin = points.Index(i, j);
       if (!sides.points.HasPoint(begin)) continue;
-      FitBlock(sides, begin, static_cast<float>(radius_m), &kappa);
+      FitBlock(sides, begin, window, &kappa);
       i += PointImage::kLanes - 1;
     }
   }

@@ -8,14 +8,21 @@
 
 namespace declutter {
 
+struct CurvatureWindow {
+  double radius_m = 0;
+  double max_tilt_rad = 0;  // largest angle between the normal of a side point and the horizontal
+  double max_residual = 0;  // rms of n . t about its line over which a window straddles an edge
+};
+
 // [1/m] Signed curvature of side faces in the horizontal plane, convex > 0, element by element of
-// the PointImage; 1 / radius on an upright cylinder, 0 on planes and on points not on a side.
+// the PointImage; 1 / radius on an upright cylinder, 0 on planes and on points not on a side. up_C
+// is the unit normal of the support.
 //
-// Over the side points q within radius_m of p, the component of q's normal along the horizontal
-// tangent t at p grows with the offset of q along t; kappa is the slope. A point is on a side when
-// its normal is at most max_tilt_rad from horizontal; up_C is the unit normal of the support.
+// Over the side points q within the window of p, n . t, the component of q's normal along the
+// horizontal tangent t at p, grows with the offset of q along t; kappa is the slope. Where that is
+// not a line, p is beside a vertical edge and the half window on p's own side of it is used.
 std::vector<float> EstimateHorizontalCurvature(const PointImage& points, const NormalImage& normals,
-                                               const Eigen::Vector3d& up_C, double radius_m,
-                                               double max_tilt_rad);
+                                               const Eigen::Vector3d& up_C,
+                                               const CurvatureWindow& window);
 
 }  // namespace declutter
