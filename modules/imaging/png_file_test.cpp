@@ -6,6 +6,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <stdexcept>
+
+#include "modules/imaging/temporary_folder.h"
 
 namespace declutter::imaging {
 namespace {
@@ -13,16 +17,9 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// A folder of its own for each test, removed with everything in it.
 class PngFileTest : public ::testing::Test {
  protected:
-  PngFileTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "png_file_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~PngFileTest() override { std::filesystem::remove_all(folder_); }
-
-  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string Path(const std::string& name) const { return folder_ / name; }
 
   // Writes a PNG of one row in a layout that the library's own writers do not produce.
   std::string WriteRow(const std::string& name, uint32_t format, const std::vector<uint8_t>& row,
@@ -48,7 +45,7 @@ class PngFileTest : public ::testing::Test {
     return "no error";
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(PngFileTest, KeepsEvery16BitSample) {

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "modules/codec/codec.h"
+#include "modules/kinect_source/kinect_source.h"
+#include "modules/kinect_source/recording_reader.h"
+#include "modules/runtime/bus.h"
+#include "modules/runtime/run.h"
+
+namespace declutter {
+namespace {
+
+// How late the end of the recording may be noticed.
+constexpr double kMaxWaitS = 0.05;
+
+double SteadySeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+class KinectSourceModule {
+ public:
+  using Config = KinectSourceConfig;
+
+  KinectSourceModule(const Config& config, runtime::Bus& bus)
+      : bus_(bus), depth_(bus.Advertise(kDepthFrame)), color_(bus.Advertise(kColorFrame)) {
+    bus.OnStart([this, config] { Open(config); });
+    bus.Subscribe<object_list_t>(kObjects, [this](const object_list_t& objects) {
+      source_->OnResult(objects.utime);
+      Advance();
+    });
+    bus.Poll([this] { return Advance(); });
+  }
+
+ private:
+  void Open(const Config& config) {
+    try {
+      reader_ = std::make_unique<RecordingReader>(config);
+    } catch (const std::invalid_argument& error) {
+      throw runtime::ConfigError(std::string("kinect_source: ") + error.what());
+    }
+    source_ =
+        std::make_unique<KinectSource>(config, bus_.lossless(), [this] { return reader_->Next(); });
+  }
+
+  std::optional<double> Advance() {
+    const KinectSource::Step step = source_->Advance(SteadySeconds());
+    if (!step.failure.empty()) bus_.Fail(step.failure);
+    if (step.publish != nullptr) Publish(*step.publish);
+    if (!step.wait_s) return std::nullopt;
+    return std::min(*step.wait_s, kMaxWaitS);
+  }
+
+  void Publish(const RecordedFrame& frame) {
+    if (frame.color) color_.Publish(codec::Encode(frame.depth.header, *frame.color));
+    depth_.Publish(codec::Encode(frame.depth));
+  }
+
+  runtime::Bus& bus_;
+  runtime::Publisher<depth_frame_t> depth_;
+  runtime::Publisher<color_frame_t> color_;
+  std::unique_ptr<RecordingReader> reader_;
+  std::unique_ptr<KinectSource> source_;
+};
+
+}  // namespace
+}  // namespace declutter
+
+int main(int argc, char** argv) {
+  return declutter::runtime::Run<declutter::KinectSourceModule>(argc, argv);
+}

@@ -1,0 +1,91 @@
+#include "modules/kinect_source/recording_reader.h"
+
+#include <cmath>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+
+#include "modules/kinect_source/png_sequence.h"
+#include "modules/kinect_source/point_clouds.h"
+#include "modules/kinect_source/scene_folders.h"
+
+namespace declutter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMaxQuaternionError = 0.01;
+
+std::vector<RecordingEntry> ListFrames(const KinectSourceConfig& config) {
+  const fs::path input = config.input();
+  if (input.empty()) throw std::invalid_argument("input is not set: which recording to read?");
+  std::error_code error;
+  if (!fs::exists(input, error)) {
+    throw std::invalid_argument(input.string() + ": no such file or folder");
+  }
+  auto entries = fs::is_directory(input, error) ? ListSceneFolders(input, config.depth_file())
+                                                : std::vector<RecordingEntry>();
+  if (entries.empty()) entries = ListPointClouds(input, config.intrinsics_file());
+  if (entries.empty()) entries = ListPngSequence(input, config.intrinsics_file());
+  if (entries.empty()) {
+    throw std::invalid_argument(input.string() +
+                                ": nothing to read: no folder with scene.json or " +
+                                config.depth_file() + " at or below it, no .pcd and no .png file");
+  }
+  return entries;
+}
+
+}  // namespace
+
+Eigen::Isometry3d CameraPose(const KinectSourceConfig& config) {
+  const Eigen::Quaterniond q_WC(config.camera_qw(), config.camera_qx(), config.camera_qy(),
+                                config.camera_qz());
+  if (!(std::abs(q_WC.norm() - 1) <= kMaxQuaternionError)) {
+    throw std::invalid_argument("camera_qw, camera_qx, camera_qy, camera_qz have length " +
+                                std::to_string(q_WC.norm()) + ", a unit quaternion has 1");
+  }
+  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+  X_WC.linear() = q_WC.normalized().toRotationMatrix();
+  X_WC.translation() =
+      Eigen::Vector3d(config.camera_x_m(), config.camera_y_m(), config.camera_z_m());
+  return X_WC;
+}
+
+RecordingReader::RecordingReader(const KinectSourceConfig& config)
+    : input_(config.input()),
+      loop_(config.loop()),
+      X_WC_(CameraPose(config)),
+      entries_(ListFrames(config)) {}
+
+std::optional<RecordedFrame> RecordingReader::Next() {
+  if (next_ == entries_.size()) {
+    if (!loop_) return std::nullopt;
+    loop_offset_us_ += entries_.back().utime - entries_.front().utime + kFramePeriodUs;
+    next_ = 0;
+  }
+  const RecordingEntry& entry = entries_[next_++];
+  RecordedFrame frame;
+  frame.depth.header.utime = entry.utime + loop_offset_us_;
+  frame.depth.header.frame = entry.name;
+  frame.depth.X_WC = X_WC_;
+  try {
+    FrameContent content = entry.load();
+    frame.depth.image = std::move(content.depth);
+    frame.color = std::move(content.color);
+    frame.color_error = BelowInput(std::move(content.color_error));
+  } catch (const std::runtime_error& error) {
+    frame.depth.header.error = BelowInput(error.what());
+  } catch (const std::bad_alloc&) {
+    frame.depth.header.error = "too large for the memory of this machine";
+  }
+  return frame;
+}
+
+// Results should not depend on where a recording lies.
+std::string RecordingReader::BelowInput(std::string text) const {
+  const std::string prefix = input_.back() == '/' ? input_ : input_ + "/";
+  if (text.compare(0, prefix.size(), prefix) == 0) text.erase(0, prefix.size());
+  return text;
+}
+
+}  // namespace declutter
