@@ -21,7 +21,7 @@ std::vector<uint8_t> CompressJpeg(void* handle, const ColorImage& image, int qua
   unsigned char* data = jpeg.data();
   unsigned long size = jpeg.size();
   const int failed = tjCompress2(handle, image.rgb.data(), image.width, 0, image.height, TJPF_RGB,
-                                 &data, &size, kChroma, quality, TJFLAG_NOREALLOC | TJFLAG_FASTDCT);
+                                 &data, &size, kChroma, quality, TJFLAG_NOREALLOC);
   Demand(failed == 0, tjGetErrorStr2(handle));
   jpeg.resize(size);
   return jpeg;

@@ -57,7 +57,7 @@ void WritePoints(const FeatureCloud& features, const std::vector<FeaturePoint>& 
   const auto num_pixels =
       static_cast<size_t>(features.width) * static_cast<size_t>(features.height);
   std::vector<uint8_t> bytes = MakeMask(points, num_pixels);
-  AppendPlanes(points, features.mode, &bytes);
+  AppendFeaturePlanes(points, features.mode, &bytes);
   if (!bytes.empty()) message->data = Compress(bytes.data(), bytes.size());
   message->num_points = static_cast<int32_t>(points.size());
   message->num_bytes = static_cast<int32_t>(message->data.size());
@@ -86,6 +86,11 @@ std::vector<uint8_t> DecompressExactly(const feature_cloud_t& message, size_t nu
   Check(size == num_bytes, "num_bytes", message.num_bytes,
         "data is not the coded mask and num_points points");
   return bytes;
+}
+
+double CheckStep(const char* name, double step) {
+  Check(step > 0 && step <= 1, name, step, "must be in (0, 1]");
+  return step;
 }
 
 }  // namespace
@@ -121,15 +126,15 @@ FeatureCloud Decode(const feature_cloud_t& message) {
         message.num_components, "must be in [0, 65535]");
   Check(message.num_points >= 0 && static_cast<size_t>(message.num_points) <= num_pixels,
         "num_points", message.num_points, "must be in [0, width * height]");
-  const FeatureSteps steps{Positive("kappa_step", message.kappa_step),
-                           Positive("curvature_step", message.curvature_step),
-                           Positive("r_min_step_m", message.r_min_step_m)};
+  const FeatureSteps steps{CheckStep("kappa_step", message.kappa_step),
+                           CheckStep("curvature_step", message.curvature_step),
+                           CheckStep("r_min_step_m", message.r_min_step_m)};
   const size_t mask_bytes = MaskBytes(num_pixels);
   const auto num_points = static_cast<size_t>(message.num_points);
-  const auto bytes = DecompressExactly(message, mask_bytes + kNumPlanes * num_points);
+  const auto bytes = DecompressExactly(message, mask_bytes + kNumFeaturePlanes * num_points);
   features.points = ReadMask(bytes, features, num_pixels, message.num_points);
-  ReadPlanes(bytes.data() + mask_bytes, features.mode, steps, features.num_components,
-             &features.points);
+  ReadFeaturePlanes(bytes.data() + mask_bytes, features.mode, steps, features.num_components,
+                    &features.points);
   return features;
 }
 

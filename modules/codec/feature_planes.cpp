@@ -10,7 +10,7 @@
 namespace declutter::codec {
 namespace {
 
-using PointBytes = std::array<uint8_t, kNumPlanes>;
+using PointBytes = std::array<uint8_t, kNumFeaturePlanes>;
 
 int Quantised(float value, double step, int min, int max) {
   if (!std::isfinite(value)) throw std::logic_error("cannot encode: a feature is not finite");
@@ -64,14 +64,14 @@ FeaturePoint ToPoint(const PointBytes& bytes, FeatureMode mode, const FeatureSte
 
 }  // namespace
 
-void AppendPlanes(const std::vector<FeaturePoint>& points, FeatureMode mode,
-                  std::vector<uint8_t>* bytes) {
+void AppendFeaturePlanes(const std::vector<FeaturePoint>& points, FeatureMode mode,
+                         std::vector<uint8_t>* bytes) {
   const size_t begin = bytes->size();
-  bytes->resize(begin + kNumPlanes * points.size());
+  bytes->resize(begin + kNumFeaturePlanes * points.size());
   PointBytes previous{};
   for (size_t i = 0; i < points.size(); ++i) {
     const PointBytes point = ToBytes(points[i], mode);
-    for (size_t plane = 0; plane < kNumPlanes; ++plane) {
+    for (size_t plane = 0; plane < kNumFeaturePlanes; ++plane) {
       (*bytes)[begin + plane * points.size() + i] =
           static_cast<uint8_t>(point[plane] - previous[plane]);
     }
@@ -79,11 +79,11 @@ void AppendPlanes(const std::vector<FeaturePoint>& points, FeatureMode mode,
   }
 }
 
-void ReadPlanes(const uint8_t* planes, FeatureMode mode, const FeatureSteps& steps,
-                int32_t num_components, std::vector<FeaturePoint>* points) {
+void ReadFeaturePlanes(const uint8_t* planes, FeatureMode mode, const FeatureSteps& steps,
+                       int32_t num_components, std::vector<FeaturePoint>* points) {
   PointBytes bytes{};
   for (size_t i = 0; i < points->size(); ++i) {
-    for (size_t plane = 0; plane < kNumPlanes; ++plane) {
+    for (size_t plane = 0; plane < kNumFeaturePlanes; ++plane) {
       bytes[plane] = static_cast<uint8_t>(bytes[plane] + planes[plane * points->size() + i]);
     }
     Check(IsNormalCode({static_cast<int8_t>(bytes[0]), static_cast<int8_t>(bytes[1])}),

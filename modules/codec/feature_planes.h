@@ -12,7 +12,7 @@
 // before, which is small where the surface is smooth.
 namespace declutter::codec {
 
-inline constexpr size_t kNumPlanes = 6;
+inline constexpr size_t kNumFeaturePlanes = 6;
 
 // Quantisation. What exceeds a byte's range is saturated.
 inline constexpr double kKappaStep = 0.5;         // [1/m] signed: up to +-63.5
@@ -26,12 +26,12 @@ struct FeatureSteps {
 };
 
 // Appends the planes to bytes. Throws std::logic_error when a feature is not finite.
-void AppendPlanes(const std::vector<FeaturePoint>& points, FeatureMode mode,
-                  std::vector<uint8_t>* bytes);
+void AppendFeaturePlanes(const std::vector<FeaturePoint>& points, FeatureMode mode,
+                         std::vector<uint8_t>* bytes);
 
-// Fills all but the pixel of the points from their planes, kNumPlanes * points->size() bytes.
-// Throws BadMessage when a normal or a component cannot be meant.
-void ReadPlanes(const uint8_t* planes, FeatureMode mode, const FeatureSteps& steps,
-                int32_t num_components, std::vector<FeaturePoint>* points);
+// Fills all but the pixel of the points from their planes, kNumFeaturePlanes * points->size()
+// bytes. Throws BadMessage when a normal or a component cannot be meant.
+void ReadFeaturePlanes(const uint8_t* planes, FeatureMode mode, const FeatureSteps& steps,
+                       int32_t num_components, std::vector<FeaturePoint>* points);
 
 }  // namespace declutter::codec
