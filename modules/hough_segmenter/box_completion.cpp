@@ -1,0 +1,308 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "modules/hough_segmenter/solid_completion.h"
+
+namespace declutter {
+namespace {
+
+constexpr float kTopTolerance = 0.025f;  // [m] between the upper end of a face and the top face
+constexpr float kEdgeTolerance = 0.015f; // [m] between a face and the edge of the top face
+constexpr float kMaxBottomGap = 0.020f;  // [m] unseen above the support: it stands there
+constexpr float kTopOnlyDepth = 0.005f;  // [m] of side below a top face of which no side is seen
+constexpr float kMinExtent = 0.015f;     // [m] of a box
+constexpr float kBin = 0.004f;           // [m] of the profile of a top face
+
+// A box seen from above: p = a * axis + b * perpendicular, in T.
+struct Rectangle {
+  Eigen::Vector2f axis = Eigen::Vector2f::UnitX();
+  float a_min = 0, a_max = 0, b_min = 0, b_max = 0;  // [m]
+  float z_min = 0, z_max = 0;                        // [m]
+  bool depth_is_assumed = false;                     // extent along b
+  int component = 0;
+  int num_votes = 0;
+  int num_points = 0;
+  float score = 0;
+
+  Eigen::Vector2f perpendicular() const { return {-axis.y(), axis.x()}; }
+};
+
+Hypothesis MakeBox(const Rectangle& r) {
+  Hypothesis hypothesis;
+  const float bottom = r.z_min < kMaxBottomGap ? 0.0f : r.z_min;
+  const Eigen::Vector2f centre = 0.5f * (r.a_min + r.a_max) * r.axis +
+                                 0.5f * (r.b_min + r.b_max) * r.perpendicular();
+  hypothesis.solid.shape = Shape::kBox;
+  hypothesis.solid.X_CO.linear() =
+      Eigen::AngleAxisd(std::atan2(r.axis.y(), r.axis.x()), Eigen::Vector3d::UnitZ())
+          .toRotationMatrix();
+  hypothesis.solid.X_CO.translation() =
+      Eigen::Vector3f(centre.x(), centre.y(), 0.5f * (bottom + r.z_max)).cast<double>();
+  hypothesis.solid.size =
+      Eigen::Vector3f(r.a_max - r.a_min, r.b_max - r.b_min, r.z_max - bottom).cast<double>();
+  if (r.depth_is_assumed) hypothesis.evidence[1] = Evidence::kAssumed;
+  if (bottom > 0) hypothesis.evidence[2] = Evidence::kAssumed;
+  hypothesis.component = r.component;
+  hypothesis.num_votes = r.num_votes;
+  hypothesis.num_inliers = r.num_points;
+  hypothesis.score = r.score;
+  return hypothesis;
+}
+
+Rectangle FromFace(const Face& face) {
+  Rectangle r;
+  // Body behind the face: b runs along -n, so that perpendicular() = -n.
+  const LineModel& line = face.model;
+  r.axis = -line.tangent();
+  r.a_min = -line.s_max;
+  r.a_max = -line.s_min;
+  r.b_min = r.b_max = -line.rho;
+  r.z_min = line.z_min;
+  r.z_max = line.z_max;
+  r.component = face.component;
+  r.num_votes = face.num_votes;
+  r.num_points = face.num_points;
+  r.score = face.agreement;
+  return r;
+}
+
+float Quantile(std::vector<float> values, double fraction) {
+  const auto rank = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<size_t>(rank)];
+}
+
+// Extents of a patch along two axes.
+Rectangle Around(const TopPatch& patch, const Eigen::Vector2f& axis) {
+  Rectangle r;
+  r.axis = axis;
+  std::vector<float> a, b;
+  for (const Eigen::Vector2f& p : patch.points) {
+    a.push_back(axis.dot(p));
+    b.push_back(r.perpendicular().dot(p));
+  }
+  r.a_min = Quantile(a, 0.005);
+  r.a_max = Quantile(a, 0.995);
+  r.b_min = Quantile(b, 0.005);
+  r.b_max = Quantile(b, 0.995);
+  r.z_max = patch.height;
+  r.z_min = std::max(0.0f, patch.height - kTopOnlyDepth);
+  r.component = patch.component;
+  r.num_points = static_cast<int>(patch.points.size());
+  return r;
+}
+
+// Direction of the smallest rectangle around the hull.
+Eigen::Vector2f MinimumAreaAxis(const TopPatch& patch) {
+  Eigen::Vector2f best = Eigen::Vector2f::UnitX();
+  float best_area = std::numeric_limits<float>::max();
+  for (int degree = 0; degree < 90; ++degree) {
+    const float angle = static_cast<float>(degree * M_PI / 180);
+    const Eigen::Vector2f axis(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2f other(-axis.y(), axis.x());
+    Eigen::Vector2f low = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
+    Eigen::Vector2f high = -low;
+    for (const Eigen::Vector2f& p : patch.hull) {
+      const Eigen::Vector2f q(axis.dot(p), other.dot(p));
+      low = low.cwiseMin(q);
+      high = high.cwiseMax(q);
+    }
+    const float area = (high - low).prod();
+    if (area < best_area) {
+      best_area = area;
+      best = axis;
+    }
+  }
+  return best;
+}
+
+bool IsAttached(const Face& face, const TopPatch& patch) {
+  const LineModel& line = face.model;
+  if (std::abs(line.z_max - patch.height) > kTopTolerance) return false;
+  int num_near = 0;
+  for (const Eigen::Vector2f& p : patch.points) {
+    const float depth = line.rho - line.n.dot(p);
+    const float s = line.tangent().dot(p);
+    num_near += depth > -kEdgeTolerance && depth < 2 * kEdgeTolerance && s > line.s_min &&
+                s < line.s_max;
+  }
+  return num_near >= 10;
+}
+
+// Moves the edges of a rectangle onto the faces that lie along them, and its bottom down to theirs.
+void SnapToFaces(const std::vector<const Face*>& faces, Rectangle* r) {
+  for (const Face* face : faces) {
+    const LineModel& line = face->model;
+    const Eigen::Vector2f middle = line.PointAt(0.5f * (line.s_min + line.s_max));
+    const auto snap = [&](const Eigen::Vector2f& axis, float* low, float* high) {
+      const float cosine = axis.dot(line.n);
+      if (std::abs(cosine) < 0.985f) return false;
+      float* edge = cosine > 0 ? high : low;
+      const float x = axis.dot(middle);
+      if (std::abs(x - *edge) > kEdgeTolerance) return false;
+      *edge = x;
+      return true;
+    };
+    if (snap(r->axis, &r->a_min, &r->a_max) || snap(r->perpendicular(), &r->b_min, &r->b_max)) {
+      r->z_min = std::min(r->z_min, line.z_min);
+      r->num_votes += face->num_votes;
+      r->num_points += face->num_points;
+      r->score = std::max(r->score, face->agreement);
+    }
+  }
+}
+
+// Grows the face backwards over the part of the top face within its width; stops where less than a
+// third of the width is covered. Nothing when the top does not begin at the face.
+std::optional<Rectangle> GrowOver(const Face& face, const TopPatch& patch, float max_extent) {
+  Rectangle r = FromFace(face);
+  std::vector<int> profile(static_cast<size_t>(max_extent / kBin), 0);
+  std::vector<float> depths;
+  for (const Eigen::Vector2f& p : patch.points) {
+    const float a = r.axis.dot(p);
+    const float depth = r.perpendicular().dot(p) - r.b_min;
+    if (a < r.a_min || a > r.a_max || depth < 0) continue;
+    const auto bin = static_cast<size_t>(depth / kBin);
+    if (bin >= profile.size()) continue;
+    ++profile[bin];
+    depths.push_back(depth);
+  }
+  int front = 0;
+  for (size_t bin = 0; bin < std::min<size_t>(profile.size(), 8); ++bin) {
+    front = std::max(front, profile[bin]);
+  }
+  size_t end = 0;
+  for (size_t bin = 0; bin < profile.size(); ++bin) {
+    if (3 * profile[bin] >= front && profile[bin] >= 2) end = bin + 1;
+    if (bin > end + 3) break;
+  }
+  const float limit = static_cast<float>(end) * kBin;
+  depths.erase(std::remove_if(depths.begin(), depths.end(), [&](float d) { return d > limit; }),
+               depths.end());
+  if (depths.size() < 30) return std::nullopt;
+  r.b_max = r.b_min + Quantile(depths, 0.99);
+  r.z_max = patch.height;
+  r.num_points += static_cast<int>(depths.size());
+  return r;
+}
+
+// The box of two perpendicular faces that meet at a vertical edge.
+std::optional<Rectangle> FromCorner(const Face& front, const Face& side) {
+  const LineModel& f = front.model;
+  const LineModel& g = side.model;
+  if (std::abs(f.n.dot(g.n)) > 0.17f) return std::nullopt;
+  if (std::min(f.z_max, g.z_max) - std::max(f.z_min, g.z_min) < 0.01f) return std::nullopt;
+  if (std::abs(f.z_max - g.z_max) > kTopTolerance) return std::nullopt;
+  Rectangle r = FromFace(front);
+  // The nearer end of the side face is at the front face, the farther end at the back.
+  const float b0 = r.perpendicular().dot(g.PointAt(g.s_min));
+  const float b1 = r.perpendicular().dot(g.PointAt(g.s_max));
+  const float a = r.axis.dot(g.PointAt(0.5f * (g.s_min + g.s_max)));
+  const bool is_at_max = r.axis.dot(g.n) > 0;
+  if (std::abs(std::min(b0, b1) - r.b_min) > 2 * kEdgeTolerance) return std::nullopt;
+  if (std::abs(a - (is_at_max ? r.a_max : r.a_min)) > 2 * kEdgeTolerance) return std::nullopt;
+  (is_at_max ? r.a_max : r.a_min) = a;
+  r.b_max = std::max(b0, b1);
+  r.z_min = std::min(f.z_min, g.z_min);
+  r.z_max = std::max(f.z_max, g.z_max);
+  r.num_votes += side.num_votes;
+  r.num_points += side.num_points;
+  return r;
+}
+
+// Faces on one line with a gap between them, as an occluder in front leaves them, as one.
+std::optional<Face> Join(const Face& a, const Face& b, float max_extent) {
+  const LineModel& f = a.model;
+  const LineModel& g = b.model;
+  if (f.n.dot(g.n) < 0.995f || std::abs(f.z_max - g.z_max) > kTopTolerance) return std::nullopt;
+  const Eigen::Vector2f p = g.PointAt(0.5f * (g.s_min + g.s_max));
+  if (std::abs(f.n.dot(p) - f.rho) > 0.01f) return std::nullopt;
+  Face joined = a;
+  const Eigen::Vector2f q0 = g.PointAt(g.s_min);
+  const Eigen::Vector2f q1 = g.PointAt(g.s_max);
+  LineModel& line = joined.model;
+  line.n = (static_cast<float>(a.num_points) * f.n + static_cast<float>(b.num_points) * g.n)
+               .normalized();
+  const Eigen::Vector2f t = line.tangent();
+  const Eigen::Vector2f p0 = f.PointAt(f.s_min);
+  const Eigen::Vector2f p1 = f.PointAt(f.s_max);
+  line.rho = 0.25f * line.n.dot(p0 + p1 + q0 + q1);
+  line.s_min = std::min({t.dot(p0), t.dot(q0)});
+  line.s_max = std::max({t.dot(p1), t.dot(q1)});
+  line.z_min = std::min(f.z_min, g.z_min);
+  line.z_max = std::max(f.z_max, g.z_max);
+  if (line.length() > max_extent) return std::nullopt;
+  joined.num_points += b.num_points;
+  joined.num_votes += b.num_votes;
+  return joined;
+}
+
+// All faces, and those that come of joining two.
+std::vector<Face> WithJoinedFaces(const std::vector<Face>& faces, float max_extent) {
+  std::vector<Face> all = faces;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    for (size_t j = i + 1; j < faces.size(); ++j) {
+      if (faces[i].component != faces[j].component) continue;
+      if (const auto joined = Join(faces[i], faces[j], max_extent)) all.push_back(*joined);
+    }
+  }
+  return all;
+}
+
+bool IsGraspable(const Rectangle& r, float max_extent) {
+  const float a = r.a_max - r.a_min;
+  const float b = r.b_max - r.b_min;
+  return a > kMinExtent && b > kMinExtent && a < max_extent && b < max_extent;
+}
+
+}  // namespace
+
+std::vector<Hypothesis> CompleteBoxes(const HoughSegmenterConfig& config,
+                                      const Surfaces& surfaces) {
+  const auto max_extent = static_cast<float>(config.max_box_extent_m());
+  const std::vector<Face> faces = WithJoinedFaces(surfaces.faces, max_extent);
+  std::vector<Rectangle> rectangles;
+  std::vector<char> has_depth(faces.size(), 0);
+  for (const TopPatch& patch : surfaces.tops) {
+    std::vector<const Face*> attached;
+    for (size_t i = 0; i < faces.size(); ++i) {
+      if (faces[i].component != patch.component || !IsAttached(faces[i], patch)) continue;
+      attached.push_back(&faces[i]);
+      if (const auto grown = GrowOver(faces[i], patch, max_extent)) {
+        rectangles.push_back(*grown);
+        has_depth[i] = 1;
+      }
+    }
+    std::vector<Eigen::Vector2f> axes = {MinimumAreaAxis(patch)};
+    for (const Face* face : attached) axes.push_back(face->model.tangent());
+    for (const Eigen::Vector2f& axis : axes) {
+      Rectangle r = Around(patch, axis);
+      SnapToFaces(attached, &r);
+      rectangles.push_back(r);
+    }
+  }
+  for (size_t i = 0; i < faces.size(); ++i) {
+    for (size_t j = 0; j < faces.size(); ++j) {
+      if (i == j || faces[i].component != faces[j].component) continue;
+      if (const auto corner = FromCorner(faces[i], faces[j])) {
+        rectangles.push_back(*corner);
+        has_depth[i] = has_depth[j] = 1;
+      }
+    }
+  }
+  for (size_t i = 0; i < faces.size(); ++i) {
+    if (has_depth[i]) continue;
+    Rectangle r = FromFace(faces[i]);
+    r.b_max = r.b_min + std::clamp(0.5f * faces[i].model.length(), 0.03f, 0.10f);
+    r.depth_is_assumed = true;
+    rectangles.push_back(r);
+  }
+  std::vector<Hypothesis> hypotheses;
+  for (const Rectangle& r : rectangles) {
+    if (IsGraspable(r, max_extent)) hypotheses.push_back(MakeBox(r));
+  }
+  return hypotheses;
+}
+
+}  // namespace declutter

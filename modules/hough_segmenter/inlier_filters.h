@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "modules/hough_segmenter/ransac_fits.h"
+
+namespace declutter {
+
+// The filters of section 5. Each keeps or clears the inliers of a fit; indices are into `cells`.
+
+// Line: inliers form one cluster along the line without a gap over max_gap_m. In paper mode a fit of
+// several clusters is rejected, else the one with the most points is kept.
+void KeepOneRun(const std::vector<SideCell>& cells, float max_gap_m, FeatureMode mode,
+                LineFit* fit);
+
+// Circle: at most two clusters of inliers, at the same height; inliers of another height are
+// dropped, of more than two arcs the two longest stay.
+void KeepArcsAtOneHeight(const std::vector<SideCell>& cells, float max_gap_m, CircleFit* fit);
+
+// Paper mode: keeps inliers whose curvature is that of a flat (line) or round (circle) surface, and
+// for circles those whose minimum radius is within max_radius_difference_m of the circle's.
+void KeepFlat(const std::vector<SideCell>& cells, float max_curvature, LineFit* fit);
+void KeepRound(const std::vector<SideCell>& cells, float max_curvature,
+               float max_radius_difference_m, CircleFit* fit);
+
+// [1/m] weighted median of the horizontal curvature of the inliers.
+float MedianKappa(const std::vector<SideCell>& cells, const std::vector<int>& inliers);
+
+// Sum of the weights of the inliers [px].
+float NumPoints(const std::vector<SideCell>& cells, const std::vector<int>& inliers);
+
+}  // namespace declutter

@@ -1,0 +1,91 @@
+#include "modules/hough_segmenter/side_voting.h"
+
+#include "modules/hough_segmenter/inlier_filters.h"
+#include "modules/hough_segmenter/parameter_space.h"
+
+namespace declutter {
+namespace {
+
+struct Votes {
+  ParameterSpace<LineModel> lines;
+  ParameterSpace<CircleModel> circles;
+};
+
+void Remove(const std::vector<int>& inliers, std::vector<char>* is_free) {
+  for (int i : inliers) (*is_free)[static_cast<size_t>(i)] = 0;
+}
+
+// One iteration: fits, takes the better supported model, removes its inliers temporarily and fits
+// again until too few points remain.
+void CastVotes(SideFitter* fitter, std::vector<char> is_free, Votes* votes) {
+  while (true) {
+    std::optional<LineFit> line = fitter->FitLine(is_free);
+    std::optional<CircleFit> circle = fitter->FitCircle(is_free);
+    if (!line && !circle) return;
+    if (line && (!circle || line->support >= circle->support)) {
+      Remove(line->inliers, &is_free);
+      votes->lines.Add(std::move(*line));
+    } else {
+      Remove(circle->inliers, &is_free);
+      votes->circles.Add(std::move(*circle));
+    }
+  }
+}
+
+template <typename Model>
+Detection<Model> MakeDetection(const std::vector<SideCell>& cells, const Fit<Model>& fit,
+                               int component, int num_votes) {
+  Detection<Model> detection;
+  detection.model = fit.model;
+  detection.component = component;
+  detection.num_votes = num_votes;
+  detection.num_points = static_cast<int>(fit.num_points);
+  detection.agreement = fit.support / fit.num_points;
+  detection.median_kappa = MedianKappa(cells, fit.inliers);
+  return detection;
+}
+
+// Turns the highest peak of either space into a detection and removes what it explains. False when
+// no votes are left.
+template <typename Model>
+void TakePeak(const SideFitter& fitter, const std::vector<SideCell>& cells, int component,
+              const typename ParameterSpace<Model>::Peak& peak, ParameterSpace<Model>* space,
+              std::vector<char>* is_free, std::vector<Detection<Model>>* detections) {
+  const auto fit = fitter.Refit(peak.model, *is_free);
+  space->Remove(peak.strongest);
+  if (!fit) return;
+  Remove(fit->inliers, is_free);
+  detections->push_back(MakeDetection(cells, *fit, component, peak.num_votes));
+}
+
+}  // namespace
+
+void DetectSides(const HoughSegmenterConfig& config, FeatureMode mode,
+                 const std::vector<SideCell>& cells, int component, uint64_t seed,
+                 SideDetections* detections) {
+  SideFitter fitter(config, mode, cells, seed);
+  std::vector<char> is_free(cells.size(), 1);
+  const auto num_detections = [&] { return detections->faces.size() + detections->arcs.size(); };
+  size_t num_before = 0;
+  do {
+    num_before = num_detections();
+    Votes votes;
+    for (int iteration = 0; iteration < config.num_iterations(); ++iteration) {
+      CastVotes(&fitter, is_free, &votes);
+    }
+    while (true) {
+      const auto line = votes.lines.HighestPeak();
+      const auto circle = votes.circles.HighestPeak();
+      if (!line && !circle) break;
+      if (line && (!circle || line->density >= circle->density)) {
+        TakePeak(fitter, cells, component, *line, &votes.lines, &is_free, &detections->faces);
+      } else {
+        TakePeak(fitter, cells, component, *circle, &votes.circles, &is_free, &detections->arcs);
+      }
+      votes.lines.KeepSupported(cells, is_free);
+      votes.circles.KeepSupported(cells, is_free);
+    }
+  } while (num_detections() > num_before);
+}
+
+}  // namespace declutter

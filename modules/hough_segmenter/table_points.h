@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "modules/geometry/feature_cloud.h"
+#include "modules/geometry/tabletop.h"
+
+namespace declutter {
+
+// An object point with its features in the table frame T of the main support plane.
+struct TablePoint {
+  Eigen::Vector3f p_T;  // [m]
+  Eigen::Vector3f n_T;  // unit normal, toward the camera
+  float kappa;          // [1/m] horizontal curvature (default mode)
+  float curvature;      // [1] (paper mode)
+  float r_min;          // [m] (paper mode)
+  float sigma;          // [m] standard deviation of the measurement along its ray
+  int component;
+  int u;  // [px]
+  int v;  // [px]
+
+  // Part of a horizontal face, seen from above.
+  bool is_top() const { return n_T.z() > 0.90f; }
+  // Part of a vertical face: its normal is within 30 degrees of the horizontal.
+  bool is_side() const { return n_T.z() < 0.50f && n_T.z() > -0.50f; }
+};
+
+// [m] standard deviation of a measurement at depth z: 0.7 counts of disparity of a Kinect, K / z
+// counts with K = 347 m, 2 mm at 1 m.
+inline float MeasurementSigma(float z) { return 0.002f * z * z; }
+
+// All points of the cloud with a known normal, in T; X_TC is the pose of the camera in T.
+std::vector<TablePoint> TablePoints(const Tabletop& tabletop, const FeatureCloud& features,
+                                    const Eigen::Isometry3d& X_TC);
+
+}  // namespace declutter

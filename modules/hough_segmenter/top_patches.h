@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "modules/hough_segmenter/table_points.h"
+
+namespace declutter {
+
+// A connected horizontal surface seen from above: the top face of an object. All in T.
+struct TopPatch {
+  int component = 0;
+  float height = 0;                     // [m] median above the support plane
+  std::vector<Eigen::Vector2f> points;  // [m] of all its pixels
+  std::vector<Eigen::Vector2f> hull;    // [m] convex, counter-clockwise
+};
+
+// Patches of at least min_points points, in row-major order of their first pixels. Neighbouring
+// pixels whose heights differ by more than max_step_m belong to different patches.
+std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points, int width, int height,
+                                     int thinning, float max_step_m, int min_points);
+
+}  // namespace declutter

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "modules/geometry/solid.h"
+#include "modules/model_verifier/model_verifier.pb.h"
+#include "modules/model_verifier/ray_casting.h"
+
+namespace declutter {
+
+// A hypothesis with what the depth image says of it.
+struct Candidate {
+  Hypothesis hypothesis;
+  RayEvidence evidence;
+  double gain = 0;  // [px] explained by it alone when it was selected, less what speaks against it
+};
+
+// The set of solids that explains the image best: takes the hypothesis that explains the most pixels
+// nobody else explains, again and again, until none explains enough. Solids do not share space.
+std::vector<Candidate> SelectModels(const ModelVerifierConfig& config,
+                                    const std::vector<Hypothesis>& hypotheses,
+                                    const DepthImage& image, const Plane& support);
+
+}  // namespace declutter

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "modules/geometry/depth_image.h"
+#include "modules/geometry/plane.h"
+#include "modules/geometry/solid.h"
+
+namespace declutter {
+
+// Where a ray from the camera passes through a solid, as depths z in C [m].
+struct Passage {
+  double z_in = 0;
+  double z_out = 0;
+  bool through_top = false;  // enters through the face at the upper end of O's z axis
+};
+
+// The solid in its own frame, ready to be met by rays and points.
+class SolidCaster {
+ public:
+  explicit SolidCaster(const Solid& solid);
+
+  // ray_C has z = 1.
+  std::optional<Passage> Cast(const Eigen::Vector3d& ray_C) const;
+
+  // [m] distance of a point to the surface, negative inside.
+  double SignedDistance(const Eigen::Vector3d& p_C) const;
+
+ private:
+  Shape shape_;
+  Eigen::Vector3d half_size_;
+  Eigen::Isometry3d X_OC_;
+};
+
+// How the pixels that a solid projects to were measured.
+struct RayEvidence {
+  struct ExplainedPixel {
+    int pixel;       // v * width + u
+    float fit;       // 1 on the surface .. 0 at the tolerance
+    float distance;  // [m] signed, negative inside
+  };
+  std::vector<ExplainedPixel> explained;  // measured on the surface
+  std::vector<int> hollow;                // pixels that look into a cylinder through its open top
+  int num_occluded = 0;                   // hidden by something in front
+  int num_violating = 0;                  // measured behind the surface: free space inside
+  int num_unknown = 0;                    // not measured
+};
+
+// Casts a ray through each pixel that can see the solid. Points within the noise of the support
+// plane belong to the plane and explain nothing.
+RayEvidence CastRays(const Solid& solid, const DepthImage& image, const Plane& support);
+
+// [m] distance from a surface within which a measurement at depth z lies on it: 3 standard deviations
+// of the sensor noise.
+double SurfaceTolerance(double z);
+
+}  // namespace declutter
