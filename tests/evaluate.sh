@@ -37,9 +37,10 @@ if ((${#folders[@]} == 0)); then
   else
     echo "evaluate.sh: DECLUTTER_DATA is no folder: only rendered scenes are evaluated" >&2
   fi
-  for sensor in real_sensor white; do
-    build/bin/scene_renderer "config/scenes/dense_$sensor.textproto" "$out/scenes/$sensor" --count 10
-    folders+=("$out/scenes/$sensor")
+  for noise in real_sensor white; do
+    build/bin/scene_renderer config/scenes/dense.textproto "$out/scenes/dense_$noise" \
+      --noise "$noise" --count 10
+    folders+=("$out/scenes/dense_$noise")
   done
 fi
 

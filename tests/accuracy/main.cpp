@@ -84,9 +84,15 @@ int Score(const Options& options) {
     const fs::path overlays = fs::relative(options.output_dir, page_folder);
     WriteFile(options.html, HtmlReport(frames, summary, overlays.generic_string()));
   }
-  if (!summary.without_result.empty()) return 1;
+  if (!summary.without_result.empty()) {
+    throw std::runtime_error(options.output_dir.string() + ": lacks frame " +
+                             summary.without_result.front());
+  }
   const int num_found = summary.total.shapes[0].num_found + summary.total.shapes[1].num_found;
-  return num_found >= options.min_found ? 0 : 1;
+  if (num_found >= options.min_found) return 0;
+  std::cerr << "score_objects: found " << num_found << " core objects, less than "
+            << options.min_found << '\n';
+  return 1;
 }
 
 }  // namespace

@@ -65,6 +65,17 @@ std::optional<double> DistanceOf(const json& object) {
   return std::nullopt;
 }
 
+void ReadSize(const json& j, TrueObject* object) {
+  if (j.contains("truth")) {
+    object->solid = SolidOf(j.at("truth"), *object->shape);
+    object->size = object->solid->size;
+  } else if (j.contains("product_size")) {
+    object->size = SizeOf(j.at("product_size"));
+  } else if (j.contains("known_size")) {
+    object->size = SizeOf(j.at("known_size"));
+  }
+}
+
 TrueObject ParseObject(const json& j) {
   TrueObject object;
   object.id = j.value("id", 0);
@@ -78,18 +89,10 @@ TrueObject ParseObject(const json& j) {
   if (j.contains("seed_px")) {
     object.seed_px = {j.at("seed_px").at(0).get<int>(), j.at("seed_px").at(1).get<int>()};
   }
-  if (j.contains("truth") && object.shape) {
-    object.solid = SolidOf(j.at("truth"), *object.shape);
-    object.size = object.solid->size;
-  } else if (j.contains("product_size")) {
-    object.size = SizeOf(j.at("product_size"));
-  } else if (j.contains("known_size")) {
-    object.size = SizeOf(j.at("known_size"));
-  }
+  if (object.shape) ReadSize(j, &object);
   object.distance_m = DistanceOf(j);
-  if (j.contains("visible_fraction")) {
-    object.visible_fraction = j.at("visible_fraction").get<double>();
-  }
+  const json::json_pointer visible("/truth/visible_fraction");
+  if (j.contains(visible)) object.visible_fraction = j.at(visible).get<double>();
   return object;
 }
 

@@ -48,6 +48,22 @@ TEST(ParseSceneTruth, LeavesOutOfTheScoreWhatAKnownProblemNames) {
   EXPECT_EQ(truth.objects[1].scope, Scope::kUnscored);
 }
 
+TEST(ParseSceneTruth, ReadsTheExactPoseAndSizeOfARenderedBox) {
+  const SceneTruth truth = ParseSceneTruth(nlohmann::json::parse(R"({
+    "width": 640, "height": 480,
+    "objects": [{"id": 2, "labels": [20], "shape": "box", "scope": "core",
+                 "known_size": {"dims": [0.3, 0.2, 0.1]},
+                 "truth": {"position": [0.1, 0.2, 0.9], "orientation": [0, 1, 0, 0],
+                           "size": [0.1, 0.3, 0.2], "visible_fraction": 0.4}}]})"));
+  const TrueObject& box = truth.objects[0];
+  ASSERT_TRUE(box.solid);
+  EXPECT_EQ(box.solid->size, Eigen::Vector3d(0.1, 0.3, 0.2));
+  EXPECT_EQ(box.solid->X_CO.translation(), Eigen::Vector3d(0.1, 0.2, 0.9));
+  EXPECT_NEAR(box.solid->X_CO.linear()(2, 2), -1, 1e-12);
+  EXPECT_EQ(*box.distance_m, 0.9);
+  EXPECT_EQ(*box.visible_fraction, 0.4);
+}
+
 TEST(ParseSceneTruth, RefusesAScopeItDoesNotKnow) {
   EXPECT_THROW(ParseSceneTruth(nlohmann::json::parse(R"({
     "width": 640, "height": 480, "objects": [{"shape": "box", "scope": "cor"}]})")),

@@ -68,7 +68,7 @@ void AddPoseErrors(const ObjectModel& model, const SolidError& error, ErrorTable
   const std::string shape = ShapeName(model.solid.shape);
   Add(table, shape + " centre mm", kMmPerM * error.center_C.norm());
   Add(table, shape + " axis deg", kDegreesPerRad * error.axis_rad);
-  Add(table, shape + " volume IoU", error.volume_iou);
+  Add(table, shape + " volume, 1 - IoU", 1 - error.volume_iou);
   if (model.solid.shape != Shape::kBox) return;
   Add(table, "box yaw deg", kDegreesPerRad * error.yaw_rad);
   static const char* const kNames[] = {"box width", "box depth", "box height"};

@@ -1,5 +1,6 @@
 #include "tests/accuracy/text_report.h"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <ostream>
@@ -15,6 +16,19 @@ __attribute__((format(printf, 1, 2))) std::string Format(const char* format, ...
   va_start(arguments, format);
   std::vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
+  return text;
+}
+
+std::string IdAndName(const TrueObject& object) {
+  return object.name.empty() ? std::to_string(object.id)
+                             : std::to_string(object.id) + " " + object.name;
+}
+
+std::string ObjectText(const TrueObject& object) {
+  std::string text = IdAndName(object) + " " + object.shape_name;
+  if (object.size) text += " " + SizeText(*object.shape, *object.size);
+  if (object.distance_m) text += Format(", %.2f m away", *object.distance_m);
+  if (object.visible_fraction) text += Format(", %.0f %% visible", 100 * *object.visible_fraction);
   return text;
 }
 
@@ -37,10 +51,10 @@ std::string SizeBeside(const ObjectModel& model, const std::optional<SolidError>
 }
 
 std::string ComparisonLine(const TrueObject& object, const ScoredFrame& frame,
-                           const ObjectScore& score) {
+                           const ObjectScore& score, int name_width) {
   std::string line =
-      Format("  %-16s %-8s %-4s  %-20s %-22s | ", object.name.c_str(), object.shape_name.c_str(),
-             ScopeName(object.scope).c_str(),
+      Format("  %-*s %-8s %-4s  %-20s %-22s | ", name_width, IdAndName(object).c_str(),
+             object.shape_name.c_str(), ScopeName(object.scope).c_str(),
              object.size ? SizeText(*object.shape, *object.size).c_str() : "-",
              object.solid ? PositionText(object.solid->X_CO.translation()).c_str() : "-");
   if (!score.model) return line + "missed: " + score.why;
@@ -98,11 +112,7 @@ std::vector<Remark> RemarksOn(const ScoredFrame& frame) {
     const TrueObject& object = frame.truth.objects[t];
     const ObjectScore& score = frame.score.objects[t];
     if (score.model || object.scope != Scope::kCore) continue;
-    remarks.push_back(
-        {Remark::Kind::kMiss,
-         Format("%d %s %s %s: %s", object.id, object.shape_name.c_str(), object.name.c_str(),
-                object.size ? SizeText(*object.shape, *object.size).c_str() : "",
-                score.why.c_str())});
+    remarks.push_back({Remark::Kind::kMiss, ObjectText(object) + ": " + score.why});
   }
   for (size_t m = 0; m < frame.found.objects.size(); ++m) {
     const ModelScore& score = frame.score.models[m];
@@ -131,11 +141,16 @@ void WriteRemarks(const std::vector<ScoredFrame>& frames, std::ostream& out) {
 
 void WriteComparison(const std::vector<ScoredFrame>& frames, std::ostream& out) {
   for (const ScoredFrame& frame : frames) {
+    size_t name_width = 2;
+    for (const TrueObject& object : frame.truth.objects) {
+      name_width = std::max(name_width, IdAndName(object).size());
+    }
     out << Format("%s: truth | found\n", frame.truth.frame.c_str());
     for (size_t t = 0; t < frame.truth.objects.size(); ++t) {
       const TrueObject& object = frame.truth.objects[t];
       if (!object.shape || object.scope == Scope::kUnscored) continue;
-      out << ComparisonLine(object, frame, frame.score.objects[t]) << '\n';
+      out << ComparisonLine(object, frame, frame.score.objects[t], static_cast<int>(name_width))
+          << '\n';
     }
   }
 }
