@@ -33,7 +33,10 @@ std::string Fixed2(double value) {
   return text;
 }
 
-std::string Label(const TrueObject& object) { return object.shape_name + " " + object.name; }
+std::string Label(const TrueObject& object) {
+  const std::string label = object.shape_name + " " + std::to_string(object.id);
+  return object.name.empty() ? label : label + " " + object.name;
+}
 
 std::string Label(const ObjectModel& model) {
   return "model " + std::to_string(model.id) + " " + ShapeName(model.solid.shape);
