@@ -138,10 +138,10 @@ std::optional<Ending> ChildProcess::Reap() {
   ForwardStderr();
   if (WIFEXITED(status)) {
     const int code = WEXITSTATUS(status);
-    return Ending{code, false, "exit code " + std::to_string(code)};
+    return Ending{code, 0, "exit code " + std::to_string(code)};
   }
   const int signal = WTERMSIG(status);
-  return Ending{1, true, "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")"};
+  return Ending{1, signal, "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")"};
 }
 
 }  // namespace declutter::launcher

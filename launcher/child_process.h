@@ -10,9 +10,9 @@ namespace declutter::launcher {
 
 // How a process ended.
 struct Ending {
-  int code = 0;            // of exit(); 1 when a signal ended it
-  bool by_signal = false;  //
-  std::string how;         // for people: "exit code 1", "signal 11 (Segmentation fault)"
+  int code = 0;     // of exit(); 1 when a signal ended it
+  int signal = 0;   // that ended it; 0: none
+  std::string how;  // for people: "exit code 1", "signal 11 (Segmentation fault)"
 };
 
 // A child in a process group of its own that dies with the thread that started it, however that

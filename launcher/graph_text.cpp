@@ -118,11 +118,10 @@ void GraphText::CheckConfig(int module, const google::protobuf::Message& config,
                             std::vector<Fault>* faults) const {
   const auto* field = Module::descriptor()->FindFieldByName("config");
   const auto* tree = Locations(module);
-  for (const ConfigFault& fault :
-       runtime::CheckParameters(config, tree == nullptr ? nullptr
-                                                        : tree->GetTreeForNested(field, -1))) {
-    faults->push_back({fault.line == 0 ? Where(module, "config") : Where(fault.line, fault.column),
-                       fault.text});
+  for (const ConfigFault& fault : runtime::CheckParameters(
+           config, tree == nullptr ? nullptr : tree->GetTreeForNested(field, -1))) {
+    faults->push_back(
+        {fault.line == 0 ? Where(module, "config") : Where(fault.line, fault.column), fault.text});
   }
 }
 

@@ -21,6 +21,7 @@ void ModuleProcess::Start() {
 }
 
 void ModuleProcess::Terminate() {
+  is_ending_ = true;
   if (child_) child_->Signal(SIGTERM);
 }
 
@@ -42,8 +43,11 @@ void ModuleProcess::OnTurn(double) {
 
 std::optional<Ending> ModuleProcess::Reap() {
   auto ending = child_ ? child_->Reap() : std::nullopt;
-  if (ending) has_stderr_ = false;
-  return ending;
+  if (!ending) return ending;
+  has_stderr_ = false;
+  // Until it is ready it may not have its signals in hand yet: then this is how it obeys.
+  const bool obeyed = is_ending_ && !is_ready_ && ending->signal == SIGTERM;
+  return obeyed ? Ending{} : ending;
 }
 
 int ModuleProcess::fd() const { return has_stderr_ ? child_->stderr_fd() : -1; }

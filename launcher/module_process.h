@@ -30,6 +30,7 @@ class ModuleProcess : public Process {
   std::unique_ptr<ChildProcess> child_;
   bool has_stderr_ = false;
   bool is_ready_ = false;
+  bool is_ending_ = false;
 };
 
 }  // namespace declutter::launcher

@@ -87,7 +87,7 @@ std::optional<Ending> Recorder::Reap() {
   auto ending = child_ ? child_->Reap() : std::nullopt;
   if (!ending) return ending;
   has_stderr_ = false;
-  if (ending->code == 0 && !is_complete_) return Ending{1, false, "an incomplete log " + log_};
+  if (ending->code == 0 && !is_complete_) return Ending{1, 0, "an incomplete log " + log_};
   return ending;
 }
 

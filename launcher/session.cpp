@@ -56,7 +56,7 @@ int Session::Run() {
       process->OnTurn(MonotonicSeconds());
       if (process->is_ready()) Decide(Ready{name});
       if (const auto ending = process->Reap()) {
-        Decide(Exited{name, ending->code, ending->by_signal, ending->how});
+        Decide(Exited{name, ending->code, ending->signal != 0, ending->how});
       }
     }
     Decide(TimePassed{});

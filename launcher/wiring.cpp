@@ -25,7 +25,8 @@ Publications CollectPublishers(const std::vector<WiredModule>& modules,
   for (const WiredModule& module : modules) {
     for (const Port& output : module.outputs) {
       if (IsShared(output)) continue;
-      const auto [found, is_new] = publications.emplace(output.channel, Publication{&module, &output});
+      const auto [found, is_new] =
+          publications.emplace(output.channel, Publication{&module, &output});
       if (is_new) continue;
       faults->push_back({module.where, module.name + " publishes " + output.channel + ", as " +
                                            found->second.module->name + " does"});

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "modules/runtime/config_error.h"
+
+namespace declutter::launcher {
+
+struct CommandLine {
+  enum class Verb { kHelp, kCheck, kRun };
+
+  Verb verb = Verb::kHelp;
+  std::string graph;                     // file
+  std::vector<std::string> assignments;  // of --set, in order
+  std::string record;                    // log to write; empty: none
+  std::string url;                       // empty: not given
+  std::string logs;                      // folder; empty: not given
+};
+
+// arguments: without the program's name. Throws runtime::ConfigError.
+CommandLine ParseCommandLine(const std::vector<std::string>& arguments);
+
+std::string HelpText();
+
+}  // namespace declutter::launcher

@@ -1,0 +1,190 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <lcm/eventlog.h>
+#include <sched.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <map>
+
+#include "tests/process/fake_graph.h"
+#include "tests/process/launched.h"
+
+namespace declutter {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// Number of events of each channel in a log.
+std::map<std::string, int> CountEvents(const std::string& path) {
+  std::map<std::string, int> counts;
+  lcm_eventlog_t* log = lcm_eventlog_create(path.c_str(), "r");
+  if (log == nullptr) return counts;
+  while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log)) {
+    ++counts[event->channel];
+    lcm_eventlog_free_event(event);
+  }
+  lcm_eventlog_destroy(log);
+  return counts;
+}
+
+class RunTest : public testing::Test {
+ protected:
+  // Each of our processes has the folder's path on its command line.
+  std::vector<pid_t> Processes() const { return ProcessesWith(folder_.Path("")); }
+
+  std::vector<std::string> Command(const std::string& graph) const {
+    return {LAUNCHER, "run", graph, "--log_dir", folder_.Path("logs")};
+  }
+
+  void TearDown() override {
+    EXPECT_TRUE(Eventually([this] { return Processes().empty(); })) << "left behind";
+  }
+
+  TemporaryFolder folder_;
+};
+
+constexpr const char* kEndless = "num_frames: 100000";
+
+TEST_F(RunTest, EndsWithZeroWhenTheSourceIsFinished) {
+  const Outcome outcome = RunLauncher({"run", FakeGraph(folder_, "", "")}, folder_);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, IsEmpty());
+}
+
+TEST_F(RunTest, EndsWithTheCodeOfTheSource) {
+  const std::string graph = FakeGraph(folder_, SourceConfig("fails: true"), "");
+  const Outcome outcome = RunLauncher({"run", graph}, folder_);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("source: an input is unreadable"));
+}
+
+TEST_F(RunTest, WritesTheResolvedGraphAndALogOfEachProcess) {
+  const std::string graph = FakeGraph(folder_, SourceConfig("fails: true"), "");
+  RunLauncher({"run", graph, "--set", "source.num_frames=2"}, folder_);
+  const std::string latest = folder_.Path("logs/latest/");
+  EXPECT_THAT(ReadFile(latest + "graph.textproto"), HasSubstr("num_frames: 2"));
+  EXPECT_THAT(ReadFile(latest + "source.textproto"), HasSubstr("num_frames: 2"));
+  EXPECT_THAT(ReadFile(latest + "source.log"), HasSubstr("an input is unreadable"));
+}
+
+TEST_F(RunTest, EndsWithOneWhenAModuleCrashes) {
+  const std::string graph =
+      FakeGraph(folder_, SourceConfig(kEndless), FilterConfig("mishap: \"crashes\""));
+  const Outcome outcome = RunLauncher({"run", graph}, folder_);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("launcher: filter ended with signal 11"));
+}
+
+TEST_F(RunTest, EndsWithTwoWhenAModuleRefusesItsParameters) {
+  const std::string graph =
+      FakeGraph(folder_, SourceConfig(kEndless), FilterConfig("mishap: \"refuses\""));
+  const Outcome outcome = RunLauncher({"run", graph}, folder_);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("not with these parameters"));
+}
+
+TEST_F(RunTest, StartsNothingOfAGraphWithAFault) {
+  const std::string graph = FakeGraph(folder_, "", FilterConfig("mishap: \"rain\""));
+  EXPECT_EQ(RunLauncher({"run", graph}, folder_).code, 2);
+  EXPECT_THAT(ReadFile(folder_.Path("logs/latest/graph.textproto")), IsEmpty());
+}
+
+TEST_F(RunTest, FailsWhenAModuleGivesNoSignOfLife) {
+  const std::string graph =
+      FakeGraph(folder_, "", "start_limit_s: 0.5 " + FilterConfig("mishap: \"hangs_at_start\""));
+  const Outcome outcome = RunLauncher({"run", graph}, folder_);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("filter is not ready 0.5 s after its start"));
+}
+
+TEST_F(RunTest, KillsAModuleThatDoesNotStopAndSaysSo) {
+  const std::string graph =
+      FakeGraph(folder_, SourceConfig("num_frames: 1"),
+                "grace_period_s: 0.5 " + FilterConfig("mishap: \"gets_stuck\""));
+  Launched launcher(Command(graph), folder_);
+  ASSERT_TRUE(Eventually([this] {
+    return ReadFile(folder_.Path("stderr")).find("filter: stuck") != std::string::npos;
+  }));
+  launcher.Signal(SIGTERM);
+  const Outcome outcome = launcher.Wait();
+  EXPECT_EQ(outcome.code, 143);
+  EXPECT_THAT(outcome.err, HasSubstr("filter still runs 0.5 s after it was asked to stop: killed"));
+}
+
+TEST_F(RunTest, StopsInOrderOnASignal) {
+  const std::string graph = FakeGraph(folder_, SourceConfig(kEndless), "");
+  Launched launcher(Command(graph), folder_);
+  ASSERT_TRUE(Eventually([this] { return Processes().size() == 3; }));
+  launcher.Signal(SIGINT);
+  const Outcome outcome = launcher.Wait();
+  EXPECT_EQ(outcome.code, 130);
+  EXPECT_THAT(outcome.err, HasSubstr("launcher: stopping on signal 2"));
+}
+
+TEST_F(RunTest, LeavesNoProcessBehindWhenTheLauncherIsKilled) {
+  const std::string graph = FakeGraph(folder_, SourceConfig(kEndless), "");
+  Launched launcher(Command(graph), folder_);
+  ASSERT_TRUE(Eventually([this] { return Processes().size() == 3; }));
+  launcher.Signal(SIGKILL);
+  EXPECT_EQ(launcher.Wait().code, 128 + SIGKILL);
+  EXPECT_TRUE(Eventually([this] { return Processes().empty(); }, 2.0));
+}
+
+TEST_F(RunTest, RecordsEveryMessage) {
+  const std::string log = folder_.Path("run.lcm");
+  const std::string graph = FakeGraph(folder_, SourceConfig("num_frames: 50"), "");
+  const Outcome outcome = RunLauncher({"run", graph, "--record", log}, folder_);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto counts = CountEvents(log);
+  ASSERT_TRUE(counts.count("DEPTH_FRAME") == 1 && counts.count("OBJECTS") == 1);
+  EXPECT_EQ(counts.at("DEPTH_FRAME"), 50);
+  EXPECT_EQ(counts.at("OBJECTS"), 50);
+}
+
+TEST_F(RunTest, RefusesToRecordOverAFile) {
+  const std::string log = folder_.Write("run.lcm", "precious");
+  const Outcome outcome =
+      RunLauncher({"run", FakeGraph(folder_, "", ""), "--record", log}, folder_);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("exists already"));
+  EXPECT_EQ(ReadFile(log), "precious");
+}
+
+TEST_F(RunTest, FailsWhenTheLogCannotBeWritten) {
+  const std::string graph = FakeGraph(folder_, "", "");
+  const std::string log = folder_.Write("no_folder", "") + "/run.lcm";
+  const Outcome outcome = RunLauncher({"run", graph, "--record", log}, folder_);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("lcm-logger ended"));
+}
+
+TEST_F(RunTest, MakesItsOwnNetworkWhereThereIsNoMulticast) {
+  const std::string graph = FakeGraph(folder_, "", "");
+  const auto leave_network = [] {
+    if (unshare(CLONE_NEWNET) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) _exit(99);
+  };
+  Launched launcher(Command(graph), folder_, leave_network);
+  const Outcome outcome = launcher.Wait();
+  if (outcome.code == 99) GTEST_SKIP() << "no network namespaces here";
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST_F(RunTest, KeepsTwoRunsAtATimeApart) {
+  const TemporaryFolder other;
+  const std::string graph = FakeGraph(folder_, SourceConfig("num_frames: 50"), "");
+  const std::string log = folder_.Path("run.lcm");
+  std::vector<std::string> command = Command(graph);
+  command.insert(command.end(), {"--record", log});
+  Launched first(command, folder_);
+  Launched second(Command(FakeGraph(other, SourceConfig("num_frames: 50"), "")), other);
+  EXPECT_EQ(first.Wait().code, 0);
+  EXPECT_EQ(second.Wait().code, 0);
+  EXPECT_EQ(CountEvents(log)["DEPTH_FRAME"], 50);
+}
+
+}  // namespace
+}  // namespace declutter
