@@ -106,7 +106,7 @@ std::vector<float> BoxNoise(int width, int height, int box_width, int box_height
 }
 
 std::vector<float> SmoothField(int width, int height, double length_px, uint64_t seed) {
-  const int columns = width / kGridStep_px + 2, rows = height / kGridStep_px + 2;
+  const int columns = (width - 1) / kGridStep_px + 2, rows = (height - 1) / kGridStep_px + 2;
   Eigen::MatrixXd A(columns * rows, 6);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
