@@ -40,6 +40,25 @@ std::vector<Vector2d> ConvexHull(std::vector<Vector2d> points) {
   return hull;
 }
 
+std::vector<Vector2d> SimplifyHull(std::vector<Vector2d> hull, double tolerance) {
+  while (hull.size() > 3) {
+    size_t flattest = 0;
+    double smallest_offset = tolerance;
+    for (size_t i = 0; i < hull.size(); ++i) {
+      const Vector2d& before = hull[(i + hull.size() - 1) % hull.size()];
+      const Vector2d& after = hull[(i + 1) % hull.size()];
+      const double offset = Cross(before, hull[i], after) / (after - before).norm();
+      if (offset < smallest_offset) {
+        smallest_offset = offset;
+        flattest = i;
+      }
+    }
+    if (smallest_offset >= tolerance) break;
+    hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(flattest));
+  }
+  return hull;
+}
+
 ConvexRegion::ConvexRegion(const std::vector<Vector2d>& hull, double margin_m) {
   for (size_t i = 0; i < hull.size(); ++i) {
     const Vector2d along = (hull[(i + 1) % hull.size()] - hull[i]).normalized();

@@ -9,6 +9,10 @@ namespace declutter {
 // points that are not collinear give an empty hull.
 std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points);
 
+// The hull without corners that are less than tolerance off the line between their neighbours,
+// flattest first. It keeps at least three corners.
+std::vector<Eigen::Vector2d> SimplifyHull(std::vector<Eigen::Vector2d> hull, double tolerance);
+
 // The inside of a convex polygon, as one inequality per edge.
 class ConvexRegion {
  public:

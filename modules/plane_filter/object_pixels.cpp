@@ -19,9 +19,12 @@ constexpr float kStepSigmas = 10.0f;
 // Low pixels belong to a region this many times its necessary height away in the image.
 constexpr double kFootReach = 1.5;
 
+// Object pixels among a low pixel and its 8 neighbours.
+constexpr int kMinNeighborhood = 6;
+
 // Per pixel: 0 is not above the support, 1 as high as a foot, 2 as high as an object.
 std::vector<uint8_t> HeightClasses(const InverseDepth& image, const InversePlane& support,
-                                   const PixelMask& background, const PlaneFilterConfig& config) {
+                                   const PlaneFilterConfig& config) {
   const float camera_height = static_cast<float>(support.ToPlane().d);
   const float sigma = static_cast<float>(config.inverse_depth_sigma());
   // height = camera_height * residual / value, see InversePlane::ToPlane.
@@ -32,12 +35,11 @@ std::vector<uint8_t> HeightClasses(const InverseDepth& image, const InversePlane
   for (int v = 0; v < image.height; ++v) {
     const float row = support.b * image.ray_y[static_cast<size_t>(v)] + support.c;
     const float* values = &image.values[image.Index(0, v)];
-    const uint8_t* excluded = &background[image.Index(0, v)];
     uint8_t* out = &classes[image.Index(0, v)];
     for (int u = 0; u < image.width; ++u) {
       const float value = values[u];
       const float residual = value - (support.a * image.ray_x[static_cast<size_t>(u)] + row);
-      const bool foot = (value > 0) & (excluded[u] == 0) & (residual < max_slope * value) &
+      const bool foot = (value > 0) & (residual < max_slope * value) &
                         (residual > std::max(kFootSigmas * sigma, min_slope * value));
       const bool object = residual > std::max(kObjectSigmas * sigma, object_slope * value);
       out[u] = static_cast<uint8_t>(foot + (foot & object));
@@ -46,23 +48,50 @@ std::vector<uint8_t> HeightClasses(const InverseDepth& image, const InversePlane
   return classes;
 }
 
-// Marks pixels with a marked one at most reach away in row and column.
+// Sets pixels to 0 that are not more than band [1/m] in front of the wall.
+void ClearBehind(const InverseDepth& image, const InversePlane& wall, float band,
+                 std::vector<uint8_t>* classes) {
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const size_t i = image.Index(u, v);
+      const float wall_value =
+          wall.At(image.ray_x[static_cast<size_t>(u)], image.ray_y[static_cast<size_t>(v)]);
+      if (image.values[i] - wall_value <= band) (*classes)[i] = 0;
+    }
+  }
+}
+
+// Marks pixels with a marked one at most reach away in row and column. Every pass lets a mark live
+// for reach more steps; the passes over rows of pixels at once run for all columns in parallel.
 PixelMask Dilate(const InverseDepth& image, const PixelMask& mask, int reach) {
-  const auto spread = [reach](const uint8_t* in, uint8_t* out, int size, int step) {
-    int last = -reach - 1;
-    for (int i = 0; i < size + reach; ++i) {
-      if (i < size && in[i * step]) last = i;
-      if (i >= reach) out[(i - reach) * step] = i - last <= 2 * reach;
+  const uint8_t full = static_cast<uint8_t>(std::min(reach, 254) + 1);
+  const size_t width = static_cast<size_t>(image.width);
+  PixelMask dilated(mask.size());
+  const auto spread_row = [&](const uint8_t* in, uint8_t* out, int first, int step) {
+    int life = 0;
+    for (int i = 0, u = first; i < image.width; ++i, u += step) {
+      life = in[u] ? full : std::max(life - 1, 0);
+      out[u] |= life > 0;
     }
   };
-  PixelMask rows(mask.size());
-  PixelMask dilated(mask.size());
-  for (int v = 0; v < image.height; ++v) {
-    spread(&mask[image.Index(0, v)], &rows[image.Index(0, v)], image.width, 1);
+  for (size_t row = 0; row < mask.size(); row += width) {
+    spread_row(&mask[row], &dilated[row], 0, 1);
+    spread_row(&mask[row], &dilated[row], image.width - 1, -1);
   }
-  for (int u = 0; u < image.width; ++u) {
-    spread(&rows[image.Index(u, 0)], &dilated[image.Index(u, 0)], image.height, image.width);
-  }
+  const PixelMask rows = dilated;
+  std::vector<uint8_t> lives(width);
+  const auto spread_columns = [&](int v) {
+    const uint8_t* in = &rows[image.Index(0, v)];
+    uint8_t* out = &dilated[image.Index(0, v)];
+    for (size_t u = 0; u < width; ++u) {
+      const uint8_t aged = static_cast<uint8_t>(lives[u] - (lives[u] > 0));
+      lives[u] = in[u] ? full : aged;
+      out[u] |= lives[u] > 0;
+    }
+  };
+  for (int v = 0; v < image.height; ++v) spread_columns(v);
+  std::fill(lives.begin(), lives.end(), uint8_t{0});
+  for (int v = image.height - 1; v >= 0; --v) spread_columns(v);
   return dilated;
 }
 
@@ -100,12 +129,34 @@ PixelMask StandingRegions(const InverseDepth& image, const PixelMask& tall, cons
   return standing;
 }
 
+// Without low pixels whose neighbours are mostly none: the sensor's noise is correlated along rows
+// and makes thin streaks beside objects.
+PixelMask WithoutStreaks(const InverseDepth& image, const PixelMask& objects,
+                         const PixelMask& standing) {
+  PixelMask kept = standing;
+  for (int v = 1; v + 1 < image.height; ++v) {
+    for (int u = 1; u + 1 < image.width; ++u) {
+      const size_t i = image.Index(u, v);
+      if (!objects[i] || standing[i]) continue;
+      int num_objects = 0;
+      for (int dv = -1; dv <= 1; ++dv) {
+        const uint8_t* row = &objects[image.Index(u, v + dv)];
+        num_objects += row[-1] + row[0] + row[1];
+      }
+      kept[i] = num_objects >= kMinNeighborhood;
+    }
+  }
+  return kept;
+}
+
 }  // namespace
 
 PixelMask ObjectPixels(const InverseDepth& image, const InversePlane& support,
-                       const std::vector<Eigen::Vector2d>& hull_T, const PixelMask& background,
-                       const PlaneFilterConfig& config) {
-  const std::vector<uint8_t> classes = HeightClasses(image, support, background, config);
+                       const std::vector<Eigen::Vector2d>& hull_T,
+                       const std::vector<InversePlane>& walls, const PlaneFilterConfig& config) {
+  std::vector<uint8_t> classes = HeightClasses(image, support, config);
+  const float wall_band = static_cast<float>(config.inlier_sigmas() * config.inverse_depth_sigma());
+  for (const InversePlane& wall : walls) ClearBehind(image, wall, wall_band, &classes);
   PixelMask tall(classes.size());
   for (size_t i = 0; i < tall.size(); ++i) tall[i] = classes[i] == 2;
   const PixelMask standing =
@@ -123,7 +174,7 @@ PixelMask ObjectPixels(const InverseDepth& image, const InversePlane& support,
   for (size_t i = 0; i < objects.size(); ++i) {
     objects[i] = standing[i] || (objects[i] && classes[i] == 1);
   }
-  return objects;
+  return WithoutStreaks(image, objects, standing);
 }
 
 }  // namespace declutter

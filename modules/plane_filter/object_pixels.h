@@ -10,9 +10,9 @@ namespace declutter {
 
 // Pixels of what stands on the support: connected regions that rise clearly above it, over its hull
 // (widened where a region as a whole stands there), and down to their feet (paper, section 3, step
-// i). hull_T as HullInPlane gives it; background marks pixels of other planes that are no objects.
+// i). hull_T as HullInPlane gives it; Pixels in or behind a wall are not objects.
 PixelMask ObjectPixels(const InverseDepth& image, const InversePlane& support,
-                       const std::vector<Eigen::Vector2d>& hull_T, const PixelMask& background,
-                       const PlaneFilterConfig& config);
+                       const std::vector<Eigen::Vector2d>& hull_T,
+                       const std::vector<InversePlane>& walls, const PlaneFilterConfig& config);
 
 }  // namespace declutter

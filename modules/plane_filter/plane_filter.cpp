@@ -6,28 +6,29 @@
 #include "modules/plane_filter/outlier_filter.h"
 #include "modules/plane_filter/plane_search.h"
 #include "modules/plane_filter/prism.h"
-#include "modules/plane_filter/support_choice.h"
+#include "modules/plane_filter/scene_roles.h"
 
 namespace declutter {
 namespace {
 
-// The connected region of the plane on all pixels, and the plane by least squares over it.
-PlaneCandidate Refine(const InverseDepth& image, const PlaneCandidate& candidate,
+// Supports are refined on every n-th pixel: neighbours share most of their noise.
+constexpr int kRefineStride = 2;
+
+// The plane by least squares over its connected region in image, and that region.
+PlaneCandidate Refine(const InverseDepth& image, const InversePlane& plane,
                       const PlaneFilterConfig& config) {
   const float sigma = static_cast<float>(config.inverse_depth_sigma());
   const float band = static_cast<float>(config.inlier_sigmas()) * sigma;
   const int min_region_pixels =
       static_cast<int>(config.min_plane_fraction() / 4 * static_cast<double>(image.values.size()));
-  PlaneCandidate refined = candidate;
-  refined.region =
-      CoherentRegion(image, PlaneInliers(image, refined.plane, band), min_region_pixels);
+  PlaneCandidate refined;
+  refined.plane = plane;
+  refined.region = CoherentRegion(image, PlaneInliers(image, plane, band), min_region_pixels);
   // Feet of objects are in the band on one side only; a narrower one leaves them out.
   for (const float sigmas : {2.5f, 2.0f, 2.0f}) {
-    const auto plane = FitInliers(image, refined.region, refined.plane, sigmas * sigma);
-    if (plane) refined.plane = *plane;
+    const auto fit = FitInliers(image, refined.region, refined.plane, sigmas * sigma);
+    if (fit) refined.plane = *fit;
   }
-  refined.region =
-      CoherentRegion(image, PlaneInliers(image, refined.plane, band), min_region_pixels);
   return refined;
 }
 
@@ -55,17 +56,20 @@ Tabletop PlaneFilter::Filter(const DepthFrame& frame) const {
 
   const InverseDepth image = Invert(frame.image);
   const InverseDepth grid = Subsample(image, config_.sample_stride());
+  const InverseDepth half = Subsample(image, kRefineStride);
   const std::vector<PlaneCandidate> candidates = FindPlanes(grid, config_);
+  const SceneRoles roles = AssignRoles(grid, candidates, config_);
+  std::vector<InversePlane> walls;
+  for (const size_t wall : roles.walls) walls.push_back(candidates[wall].plane);
   PixelMask objects;
-  for (const size_t index : ChooseSupports(grid, candidates, config_)) {
-    const PlaneCandidate support = Refine(image, candidates[index], config_);
-    const auto hull_T = HullInPlane(image, support.plane, support.region);
+  for (const size_t index : roles.supports) {
+    const PlaneCandidate support = Refine(half, candidates[index].plane, config_);
+    const auto hull_T = HullInPlane(half, support.plane, support.region);
     if (hull_T.empty()) continue;
     const Plane plane = support.plane.ToPlane();
     tabletop.planes.push_back({plane, HullInCamera(plane, hull_T)});
     if (!objects.empty()) continue;
-    const PixelMask standing =
-        ObjectPixels(image, support.plane, hull_T, PixelMask(image.values.size()), config_);
+    const PixelMask standing = ObjectPixels(image, support.plane, hull_T, walls, config_);
     objects = RemoveOutliers(image, standing, config_);
   }
   for (size_t i = 0; i < objects.size(); ++i) {

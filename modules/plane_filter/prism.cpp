@@ -1,6 +1,12 @@
 #include "modules/plane_filter/prism.h"
 
 namespace declutter {
+namespace {
+
+// Corners that move the border of the hull by less are noise [m].
+constexpr double kHullTolerance = 0.003;
+
+}  // namespace
 
 std::vector<Eigen::Vector2d> HullInPlane(const InverseDepth& image, const InversePlane& plane,
                                          const PixelMask& region) {
@@ -23,7 +29,7 @@ std::vector<Eigen::Vector2d> HullInPlane(const InverseDepth& image, const Invers
     add(first, v);
     add(last, v);
   }
-  return ConvexHull(std::move(points));
+  return SimplifyHull(ConvexHull(std::move(points)), kHullTolerance);
 }
 
 Prism::Prism(const InversePlane& plane, const std::vector<Eigen::Vector2d>& hull_T, double margin_m)

@@ -19,6 +19,11 @@ class Prism {
   // hull_T as HullInPlane gives it; margin_m moves its edges outward.
   Prism(const InversePlane& plane, const std::vector<Eigen::Vector2d>& hull_T, double margin_m);
 
+  bool Contains(const Eigen::Vector3d& p_C) const {
+    const Eigen::Vector3f p = p_C.cast<float>();
+    return base_.Contains(x_axis_.dot(p), y_axis_.dot(p));
+  }
+
   // Whether the point with z = 1 / value on ray (x, y, 1) of C is in the prism.
   bool Contains(float x, float y, float value) const {
     const float z = 1 / value;

@@ -1,4 +1,4 @@
-#include "modules/plane_filter/support_choice.h"
+#include "modules/plane_filter/scene_roles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,21 @@ constexpr double kCornerWeight = 0.4;
 // Part of a plane over the hull of another from which it stands on that one.
 constexpr double kStandingPart = 0.5;
 
+// Smallest part of the image that a further support fills.
+constexpr double kMinFurtherSupport = 0.02;
+
+// Part of the main support behind a wall, from which it is a face of an object instead.
+constexpr double kMaxPartBehindWall = 0.01;
+
+// A wall's lower end is at most this high over the support [m], or hidden; then it may as well be
+// an object at the far border.
+constexpr double kMaxWallBase = 0.04;
+
+// Points are behind a plane from this distance [m].
+constexpr double kBehind = 0.03;
+
+constexpr double kMinWallAngle = 0.8;  // [rad] to the main support
+
 struct Support {
   Plane plane;        // in C
   Prism prism;        // over its hull
@@ -30,28 +45,47 @@ double CentreWeight(const InverseDepth& grid, int u, int v) {
   return 1 - (1 - kCornerWeight) * 0.5 * (x * x + y * y);
 }
 
-double HeightOver(const Support& support, float x, float y, float value) {
-  return support.plane.Height({x / value, y / value, 1 / value});
+Eigen::Vector3d PointOf(const InverseDepth& grid, int u, int v) {
+  return Eigen::Vector3d(grid.ray_x[static_cast<size_t>(u)], grid.ray_y[static_cast<size_t>(v)],
+                         1) /
+         grid.values[grid.Index(u, v)];
 }
 
-// Part of a candidate's region that is over the hull of a support, within the heights of objects.
-double PartStandingOn(const InverseDepth& grid, const Support& support, const PixelMask& region,
-                      const PlaneFilterConfig& config) {
+// Part of the marked pixels whose points in C satisfy a condition.
+template <typename Condition>
+double PartOf(const InverseDepth& grid, const PixelMask& mask, Condition condition) {
   int num_pixels = 0;
-  int num_standing = 0;
+  int num_true = 0;
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {
-      if (!region[grid.Index(u, v)]) continue;
+      if (!mask[grid.Index(u, v)]) continue;
       ++num_pixels;
-      const float x = grid.ray_x[static_cast<size_t>(u)];
-      const float y = grid.ray_y[static_cast<size_t>(v)];
-      const float value = grid.values[grid.Index(u, v)];
-      const double height = HeightOver(support, x, y, value);
-      num_standing += height > config.object_height_m() && height < config.max_height_m() &&
-                      support.prism.Contains(x, y, value);
+      num_true += condition(PointOf(grid, u, v));
     }
   }
-  return num_pixels > 0 ? static_cast<double>(num_standing) / num_pixels : 0;
+  return num_pixels > 0 ? static_cast<double>(num_true) / num_pixels : 0;
+}
+
+// Whether most of a region is over the hull of a support, within the heights of objects.
+bool StandsOn(const InverseDepth& grid, const PixelMask& region, const Support& support,
+              const PlaneFilterConfig& config) {
+  return PartOf(grid, region, [&](const Eigen::Vector3d& p_C) {
+           const double height = support.plane.Height(p_C);
+           return height > config.object_height_m() && height < config.max_height_m() &&
+                  support.prism.Contains(p_C);
+         }) > kStandingPart;
+}
+
+bool IsWall(const InverseDepth& grid, const PlaneCandidate& candidate, const Plane& main_plane,
+            const PixelMask& main_region) {
+  const Plane plane = candidate.plane.ToPlane();
+  if (plane.normal.dot(main_plane.normal) > std::cos(kMinWallAngle)) return false;
+  const double part_behind = PartOf(
+      grid, main_region, [&](const Eigen::Vector3d& p_C) { return plane.Height(p_C) < -kBehind; });
+  const double part_low = PartOf(grid, candidate.region, [&](const Eigen::Vector3d& p_C) {
+    return main_plane.Height(p_C) < kMaxWallBase;
+  });
+  return part_behind < kMaxPartBehindWall && part_low > 0;
 }
 
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -69,7 +103,7 @@ PixelMask NotLoad(const InverseDepth& grid, const std::vector<PlaneCandidate>& c
       if (k == j) continue;
       const double angle = Angle(supports[k].plane.normal, supports[j].plane.normal);
       load = angle > 3 * config.max_parallel_angle_rad() &&
-             PartStandingOn(grid, supports[k], candidates[j].region, config) > kStandingPart;
+             StandsOn(grid, candidates[j].region, supports[k], config);
     }
     if (load) continue;
     for (size_t i = 0; i < excluded.size(); ++i) excluded[i] |= candidates[j].region[i];
@@ -85,20 +119,17 @@ void Weigh(const InverseDepth& grid, const std::vector<PlaneCandidate>& candidat
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {
       const size_t i = grid.Index(u, v);
-      const float value = grid.values[i];
-      if (value <= 0) continue;
+      if (grid.values[i] <= 0) continue;
       const double weight = CentreWeight(grid, u, v);
+      const Eigen::Vector3d p_C = PointOf(grid, u, v);
       Support* carrier = nullptr;
       double carrier_height = config.max_height_m();
       for (size_t k = 0; k < supports->size(); ++k) {
         Support& support = (*supports)[k];
         if (candidates[k].region[i]) support.pixels += weight;
-        if (not_load[i]) continue;
-        const float x = grid.ray_x[static_cast<size_t>(u)];
-        const float y = grid.ray_y[static_cast<size_t>(v)];
-        const double height = HeightOver(support, x, y, value);
-        if (height < config.object_height_m() || height > carrier_height ||
-            !support.prism.Contains(x, y, value)) {
+        const double height = support.plane.Height(p_C);
+        if (not_load[i] || height < config.object_height_m() || height > carrier_height ||
+            !support.prism.Contains(p_C)) {
           continue;
         }
         carrier = &support;
@@ -118,9 +149,10 @@ double Score(const InverseDepth& grid, const Support& support, const PlaneFilter
 
 }  // namespace
 
-std::vector<size_t> ChooseSupports(const InverseDepth& grid,
-                                   const std::vector<PlaneCandidate>& candidates,
-                                   const PlaneFilterConfig& config) {
+SceneRoles AssignRoles(const InverseDepth& grid, const std::vector<PlaneCandidate>& candidates,
+                       const PlaneFilterConfig& config) {
+  SceneRoles roles;
+  if (candidates.empty()) return roles;
   std::vector<Support> supports;
   for (const PlaneCandidate& candidate : candidates) {
     const auto hull_T = HullInPlane(grid, candidate.plane, candidate.region);
@@ -132,20 +164,22 @@ std::vector<size_t> ChooseSupports(const InverseDepth& grid,
   for (size_t k = 1; k < supports.size(); ++k) {
     if (Score(grid, supports[k], config) > Score(grid, supports[main], config)) main = k;
   }
-  std::vector<size_t> chosen;
+  roles.supports.push_back(main);
+  const double min_pixels = kMinFurtherSupport * static_cast<double>(grid.values.size());
   for (size_t k = 0; k < supports.size(); ++k) {
-    if (k != main &&
-        Angle(supports[k].plane.normal, supports[main].plane.normal) <=
-            config.max_parallel_angle_rad() &&
-        PartStandingOn(grid, supports[main], candidates[k].region, config) < kStandingPart) {
-      chosen.push_back(k);
+    if (k == main) continue;
+    const double angle = Angle(supports[k].plane.normal, supports[main].plane.normal);
+    if (IsWall(grid, candidates[k], supports[main].plane, candidates[main].region)) {
+      roles.walls.push_back(k);
+    } else if (angle <= config.max_parallel_angle_rad() && candidates[k].num_pixels >= min_pixels &&
+               !StandsOn(grid, candidates[k].region, supports[main], config)) {
+      roles.supports.push_back(k);
     }
   }
-  std::stable_sort(chosen.begin(), chosen.end(), [&](size_t a, size_t b) {
+  std::stable_sort(roles.supports.begin() + 1, roles.supports.end(), [&](size_t a, size_t b) {
     return candidates[a].num_pixels > candidates[b].num_pixels;
   });
-  if (!supports.empty()) chosen.insert(chosen.begin(), main);
-  return chosen;
+  return roles;
 }
 
 }  // namespace declutter
