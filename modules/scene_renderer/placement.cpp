@@ -17,6 +17,8 @@ constexpr double kChanceOfTin = 1.0 / 6;
 // What stands by itself without falling over when it is pushed: height against the shorter side
 // of the footprint.
 constexpr double kMaxSlenderness = 5;
+// Shortest side of a box against its longest.
+constexpr double kMinBoxProportion = 0.2;
 constexpr double kMaxTinHeight_m = 0.12;
 // [px] that objects keep from the image's border.
 constexpr double kBorder_px = 6;
@@ -90,13 +92,11 @@ PlacedObject Placement::DrawBox() {
   const SceneClutter& clutter = scene_.clutter();
   std::array<double, 3> sides{};
   do {
-    // Small boxes are more common than large ones.
-    const double t = Uniform(0, 1);
-    const double span = clutter.max_box_length_m() - clutter.min_box_length_m();
-    sides[0] = clutter.min_box_length_m() + std::max(0.0, span) * t * std::sqrt(t);
+    sides[0] = Uniform(clutter.min_box_length_m(), clutter.max_box_length_m());
     const double widest = std::min(clutter.max_box_width_m(), sides[0]);
-    sides[1] = Uniform(clutter.min_box_width_m(), widest);
-    sides[2] = Uniform(clutter.min_box_width_m(), widest);
+    const double narrowest = std::max(clutter.min_box_width_m(), kMinBoxProportion * sides[0]);
+    sides[1] = Uniform(narrowest, widest);
+    sides[2] = Uniform(narrowest, widest);
     std::shuffle(sides.begin(), sides.end(), random_);
   } while (sides[2] > kMaxSlenderness * std::min(sides[0], sides[1]));
   PlacedObject box;
