@@ -4,6 +4,7 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
 #include <regex>
+#include <sstream>
 
 #include "modules/runtime/parameter_check.h"
 #include "modules/runtime/suggestion.h"
@@ -38,14 +39,21 @@ const Descriptor* FindType(const Descriptor& root, const std::string& full_name,
   return nullptr;
 }
 
-// The parser's own message names the type and the field, not the field that was meant.
-std::string WithSuggestion(const std::string& text, const Descriptor& root) {
+// The parser's own message does not say which field was meant, and points behind its name.
+void ExplainUnknownField(const std::string& text, const Descriptor& root, ConfigFault* fault) {
   static const std::regex pattern("Message type \"([^\"]+)\" has no field named \"([^\"]+)\".*");
   std::smatch match;
-  if (!std::regex_match(text, match, pattern)) return text;
-  const Descriptor* type = FindType(root, match[1]);
-  return "no field named '" + match[2].str() + "' in " + match[1].str() +
-         (type != nullptr ? Suggestion(match[2], FieldNames(*type)) : "");
+  if (!std::regex_match(fault->text, match, pattern)) return;
+  const std::string type_name = match[1];
+  const std::string name = match[2];
+  const Descriptor* type = FindType(root, type_name);
+  fault->text = "no field named '" + name + "' in " + type_name +
+                (type != nullptr ? Suggestion(name, FieldNames(*type)) : "");
+  std::istringstream lines(text);
+  std::string line;
+  for (int i = 0; i < fault->line; ++i) std::getline(lines, line);
+  const std::size_t start = line.rfind(name, static_cast<std::size_t>(fault->column));
+  if (start != std::string::npos) fault->column = static_cast<int>(start) + 1;
 }
 
 std::string Located(const std::string& file, const ConfigFault& fault) {
@@ -127,7 +135,7 @@ void ParseConfig(const std::string& text, const std::string& file, Message* conf
   google::protobuf::io::ArrayInputStream stream(text.data(), static_cast<int>(text.size()));
   if (!parser.Merge(&stream, config)) {
     for (ConfigFault& fault : collector.faults) {
-      fault.text = WithSuggestion(fault.text, *config->GetDescriptor());
+      ExplainUnknownField(text, *config->GetDescriptor(), &fault);
     }
     if (collector.faults.empty()) collector.faults.push_back({1, 1, "cannot be parsed"});
     ThrowIfAny(file, collector.faults);

@@ -9,8 +9,9 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -56,9 +57,11 @@ int TakeSignals() {
 
 std::string ReadFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw ConfigError(path + ": cannot be read");
-  return text;
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file.is_open() || std::filesystem::is_directory(path))
+    throw ConfigError(path + ": cannot be read");
+  return text.str();
 }
 
 void ResolveConfig(const CommandLine& line, Message* config) {
