@@ -26,14 +26,17 @@ while (($# > 0)); do
   esac
 done
 
+data=""
+if [[ -d "${DECLUTTER_DATA:-}" ]]; then data="$(cd "$DECLUTTER_DATA" && pwd)"; fi
+
 cd "$here"
 out=logs/evaluate
 rm -rf "$out"
 mkdir -p "$out"
 
 if ((${#folders[@]} == 0)); then
-  if [[ -d "${DECLUTTER_DATA:-}" ]]; then
-    folders+=("$DECLUTTER_DATA")
+  if [[ -n "$data" ]]; then
+    folders+=("$data")
   else
     echo "evaluate.sh: DECLUTTER_DATA is no folder: only rendered scenes are evaluated" >&2
   fi

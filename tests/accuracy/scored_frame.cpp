@@ -25,8 +25,8 @@ std::vector<fs::path> FindScenes(const fs::path& scene_dir) {
 
 // Name of a folder, also when the path ends in / or is relative.
 std::string FolderName(const fs::path& path) {
-  const fs::path whole = fs::weakly_canonical(path);
-  return whole.filename().string();
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  return whole.has_filename() ? whole.filename().string() : whole.parent_path().filename().string();
 }
 
 std::string FrameName(const fs::path& scene_dir, const fs::path& scene) {
