@@ -22,7 +22,8 @@ struct ComponentImage {
       label;  // 0 .. num_components - 1, in the order of their first pixels; -1: none
 };
 
-// Components with fewer than min_points points are dropped.
+// Components with fewer than min_points points are dropped. The margin of the points must be at
+// least reach_px wide.
 ComponentImage LabelComponents(const PointImage& points, const Connection& connection,
                                int min_points);
 

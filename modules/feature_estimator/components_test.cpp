@@ -26,7 +26,7 @@ Tabletop TwoWalls(double step_m) {
 }
 
 int CountComponents(const Tabletop& tabletop, const Connection& connection, int min_points = 50) {
-  return LabelComponents(MakePointImage(tabletop, 0.01), connection, min_points).num_components;
+  return LabelComponents(MakePointImage(tabletop, 0.01, 6), connection, min_points).num_components;
 }
 
 void ClearColumns(int first, int last, Tabletop* tabletop) {
@@ -62,7 +62,7 @@ TEST(Components, WithTooFewPointsAreDropped) {
 }
 
 TEST(Components, AreNumberedInTheOrderOfTheirFirstPixels) {
-  const PointImage points = MakePointImage(TwoWalls(0.1), 0.01);
+  const PointImage points = MakePointImage(TwoWalls(0.1), 0.01, 6);
   const ComponentImage components = LabelComponents(points, kConnection, 50);
   EXPECT_EQ(components.label[points.Index(0, 119)], 0);
   EXPECT_EQ(components.label[points.Index(159, 0)], 1);
@@ -76,7 +76,7 @@ TEST(Components, AreTheEuclideanClustersOfPcl) {
     if (generator() % 100 < 93) count = 0;
     count = static_cast<uint16_t>(count == 0 ? 0 : count + generator() % 200);
   }
-  const PointImage points = MakePointImage(tabletop, 0.01);
+  const PointImage points = MakePointImage(tabletop, 0.01, 6);
   const ComponentImage components = LabelComponents(points, {0.008, 0, 6}, 1);
 
   auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();

@@ -24,10 +24,12 @@ FeatureCloud FeatureEstimator::Estimate(const Tabletop& tabletop) const {
   const bool is_paper = cloud.mode == FeatureMode::kPaper;
   const double normal_radius_m =
       is_paper ? config_.paper_normal_radius_m() : config_.normal_radius_m();
+  const int dense_px = is_paper ? Neighborhood::kReadAll : config_.dense_window_px();
   const double feature_radius_m = is_paper ? config_.rsd_radius_m() : config_.kappa_radius_m();
-  const PointImage points = MakePointImage(tabletop, std::max(normal_radius_m, feature_radius_m));
+  const PointImage points = MakePointImage(tabletop, std::max(normal_radius_m, feature_radius_m),
+                                           config_.component_reach_px());
   const NormalImage normals =
-      EstimateNormals(points, normal_radius_m, config_.min_normal_neighbors());
+      EstimateNormals(points, {normal_radius_m, dense_px}, config_.min_normal_neighbors());
   std::vector<float> kappa(points.x.size(), 0.0F), r_min(points.x.size(), 0.0F);
   if (is_paper) {
     r_min = EstimateMinimumRadius(points, normals, feature_radius_m, config_.rsd_num_bins(),
@@ -35,7 +37,7 @@ FeatureCloud FeatureEstimator::Estimate(const Tabletop& tabletop) const {
   } else {
     kappa = EstimateHorizontalCurvature(
         points, normals, tabletop.planes.front().plane.normal,
-        {feature_radius_m, config_.max_side_tilt_rad(), config_.max_kappa_residual()});
+        {{feature_radius_m, dense_px}, config_.max_side_tilt_rad(), config_.max_kappa_residual()});
   }
   const Connection connection{config_.component_distance_m(), config_.component_distance_per_z2(),
                               config_.component_reach_px()};

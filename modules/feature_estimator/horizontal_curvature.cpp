@@ -7,10 +7,6 @@
 namespace declutter {
 namespace {
 
-// Neighbouring pixels share their noise and the pixels of their normals: a window wider than this
-// need not be read densely.
-constexpr int kRowsReadDensely = 6;
-
 // Part of the neighbours that half of a window must hold to be trusted.
 constexpr float kMinHalf = 0.125F;
 
@@ -87,11 +83,13 @@ DECLUTTER_LANES void FitFlatterHalf(const SlopeSums& all, const SlopeSums& left,
   slope = ((is_left_flatter | is_right_thin) & ~is_left_thin) ? a : b;
 }
 
-DECLUTTER_LANES void SumNeighbors(const SideImage& sides, size_t begin, float radius_m,
-                                  SlopeSums& all, SlopeSums& left, Lanes& mm) {
+DECLUTTER_LANES void SumNeighbors(const SideImage& sides, size_t begin,
+                                  const Neighborhood& neighborhood, SlopeSums& all, SlopeSums& left,
+                                  Lanes& mm) {
   const PointImage& points = sides.points;
-  const SphereWindow window(points, begin, radius_m);
-  const int step = 1 + window.num_rows() / kRowsReadDensely;
+  const SphereWindow window(points, begin, neighborhood);
+  const int stride = window.stride();
+  const float radius_m = static_cast<float>(neighborhood.radius_m);
   const float max_squared_distance = radius_m * radius_m;
   Lanes px, py, pz, tx, ty, tz;
   LoadLanes(&points.x[begin], px);
@@ -100,10 +98,10 @@ DECLUTTER_LANES void SumNeighbors(const SideImage& sides, size_t begin, float ra
   LoadLanes(&sides.tangent_x[begin], tx);
   LoadLanes(&sides.tangent_y[begin], ty);
   LoadLanes(&sides.tangent_z[begin], tz);
-  for (int row = -window.num_rows() / step * step; row <= window.num_rows(); row += step) {
+  for (int row = -window.num_rows(); row <= window.num_rows(); row += stride) {
     const int columns = window.Columns(row);
     const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + row * points.stride;
-    for (int column = -columns / step * step; column <= columns; column += step) {
+    for (int column = -columns; column <= columns; column += stride) {
       const ptrdiff_t q = center + column;
       Lanes x, y, z, nx, ny, nz;
       LoadLanes(points.x.data() + q, x);
@@ -138,7 +136,7 @@ DECLUTTER_FOR_EACH_PROCESSOR void FitBlock(const SideImage& sides, size_t begin,
                                            std::vector<float>* kappa) {
   SlopeSums all, left;
   Lanes mm{}, slope, half_slope, residual, pz;
-  SumNeighbors(sides, begin, static_cast<float>(window.radius_m), all, left, mm);
+  SumNeighbors(sides, begin, window.neighborhood, all, left, mm);
   FitSlope(all, slope);
   SquaredResidual(all, mm, slope, residual);
   FitFlatterHalf(all, left, half_slope);

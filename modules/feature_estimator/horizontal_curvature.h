@@ -9,7 +9,7 @@
 namespace declutter {
 
 struct CurvatureWindow {
-  double radius_m = 0;
+  Neighborhood neighborhood;
   double max_tilt_rad = 0;  // largest angle between the normal of a side point and the horizontal
   double max_residual = 0;  // rms of n . t about its line over which a window straddles an edge
 };

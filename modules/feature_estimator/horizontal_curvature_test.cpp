@@ -15,13 +15,13 @@ using ::testing::FloatNear;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-constexpr CurvatureWindow kWindow{0.030, 0.52, 0.12};
+constexpr CurvatureWindow kWindow{{0.030, 6}, 0.52, 0.12};
 
 // Horizontal curvature of the points `select` picks.
 std::vector<float> KappaOf(const Tabletop& tabletop,
                            const std::function<bool(const Eigen::Vector3d&)>& select) {
-  const PointImage points = MakePointImage(tabletop, kWindow.radius_m);
-  const NormalImage normals = EstimateNormals(points, 0.015, 8);
+  const PointImage points = MakePointImage(tabletop, kWindow.neighborhood.radius_m);
+  const NormalImage normals = EstimateNormals(points, {0.015}, 8);
   const std::vector<float> kappa = EstimateHorizontalCurvature(points, normals, kUp_C, kWindow);
   std::vector<float> selected;
   for (size_t i = 0; i < kappa.size(); ++i) {

@@ -7,14 +7,20 @@
 namespace declutter {
 namespace {
 
+// Fewer do not span a plane.
+constexpr float kMinSamples = 3;
+
 // Sums over the neighbours q of p, of e = q - p: stays small, so float is enough.
 struct Moments {
   Lanes n{}, x{}, y{}, z{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
 };
 
-DECLUTTER_LANES void SumMoments(const PointImage& points, size_t begin, float radius_m,
-                                Moments& sums) {
-  const SphereWindow window(points, begin, radius_m);
+DECLUTTER_LANES void SumMoments(const PointImage& points, size_t begin,
+                                const Neighborhood& neighborhood, Moments& sums,
+                                Lanes& num_points) {
+  const SphereWindow window(points, begin, neighborhood);
+  const int stride = window.stride();
+  const float radius_m = static_cast<float>(neighborhood.radius_m);
   Lanes px, py, pz;
   LoadLanes(&points.x[begin], px);
   LoadLanes(&points.y[begin], py);
@@ -22,13 +28,13 @@ DECLUTTER_LANES void SumMoments(const PointImage& points, size_t begin, float ra
   const float max_squared_distance = radius_m * radius_m;
   LaneMask n{};
   Moments s;
-  for (int row = -window.num_rows(); row <= window.num_rows(); ++row) {
+  for (int row = -window.num_rows(); row <= window.num_rows(); row += stride) {
     const int columns = window.Columns(row);
     const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + row * points.stride;
     const float* qx = points.x.data() + center;
     const float* qy = points.y.data() + center;
     const float* qz = points.z.data() + center;
-    for (int column = -columns; column <= columns; ++column) {
+    for (int column = -columns; column <= columns; column += stride) {
       Lanes x, y, z;
       LoadLanes(qx + column, x);
       LoadLanes(qy + column, y);
@@ -54,6 +60,7 @@ DECLUTTER_LANES void SumMoments(const PointImage& points, size_t begin, float ra
   }
   s.n = __builtin_convertvector(n, Lanes);
   sums = s;
+  num_points = s.n * static_cast<float>(stride * stride);
 }
 
 // Covariance with trace 1 in place of the sums; empty neighbourhoods become zero.
@@ -121,10 +128,11 @@ DECLUTTER_LANES void Eigenvector(const Moments& c, const Lanes& lambda, Lanes& x
 }
 
 DECLUTTER_FOR_EACH_PROCESSOR void EstimateBlock(const PointImage& points, size_t begin,
-                                                float radius_m, float min_neighbors,
+                                                const Neighborhood& neighborhood, int min_neighbors,
                                                 NormalImage* normals) {
   Moments sums, covariance;
-  SumMoments(points, begin, radius_m, sums);
+  Lanes num_points;
+  SumMoments(points, begin, neighborhood, sums, num_points);
   NormalizedCovariance(sums, covariance);
   Lanes lambda, x, y, z, px, py, pz;
   SmallestEigenvalue(covariance, lambda);
@@ -136,7 +144,9 @@ DECLUTTER_FOR_EACH_PROCESSOR void EstimateBlock(const PointImage& points, size_t
   x *= toward;
   y *= toward;
   z *= toward;
-  const LaneMask known = (pz < PointImage::kFar) & (sums.n >= min_neighbors);
+  const LaneMask known = (pz < PointImage::kFar) &
+                         (num_points >= static_cast<float>(min_neighbors)) &
+                         (sums.n >= kMinSamples);
   KeepLanes(known, x);
   KeepLanes(known, y);
   KeepLanes(known, z);
@@ -149,7 +159,8 @@ DECLUTTER_FOR_EACH_PROCESSOR void EstimateBlock(const PointImage& points, size_t
 
 }  // namespace
 
-NormalImage EstimateNormals(const PointImage& points, double radius_m, int min_neighbors) {
+NormalImage EstimateNormals(const PointImage& points, const Neighborhood& neighborhood,
+                            int min_neighbors) {
   NormalImage normals;
   for (auto* plane : {&normals.x, &normals.y, &normals.z, &normals.curvature}) {
     plane->assign(points.x.size(), 0.0F);
@@ -158,8 +169,7 @@ NormalImage EstimateNormals(const PointImage& points, double radius_m, int min_n
     for (int i = 0; i < points.width; ++i) {
       const size_t begin = points.Index(i, j);
       if (!points.HasPoint(begin)) continue;
-      EstimateBlock(points, begin, static_cast<float>(radius_m), static_cast<float>(min_neighbors),
-                    &normals);
+      EstimateBlock(points, begin, neighborhood, min_neighbors, &normals);
       i += PointImage::kLanes - 1;
     }
   }

@@ -14,8 +14,10 @@ struct NormalImage {
   bool IsKnown(size_t index) const { return x[index] != 0 || y[index] != 0 || z[index] != 0; }
 };
 
-// Principal component analysis of the points within radius_m of each point (paper, section 3, step
-// iii). Unknown with fewer than min_neighbors points, the point itself included.
-NormalImage EstimateNormals(const PointImage& points, double radius_m, int min_neighbors);
+// Principal component analysis of the neighbours of each point (paper, section 3, step iii).
+// Unknown where fewer than min_neighbors points are near, the point itself included; a sample
+// stands for the points its stride skips.
+NormalImage EstimateNormals(const PointImage& points, const Neighborhood& neighborhood,
+                            int min_neighbors);
 
 }  // namespace declutter

@@ -31,7 +31,7 @@ TEST(Normals, OfAPlaneAreItsNormalTowardTheCamera) {
   const Eigen::Vector3d normal = Eigen::Vector3d(0.4, -0.5, -0.8).normalized();
   const Tabletop tabletop = Observe(PlaneSurface({0, 0, 0.8}, normal));
   const PointImage points = MakePointImage(tabletop, kRadius_m);
-  const NormalImage normals = EstimateNormals(points, kRadius_m, 8);
+  const NormalImage normals = EstimateNormals(points, {kRadius_m}, 8);
   EXPECT_LT(LargestError(points, normals, normal, [](const auto&) { return true; }), 0.003);
   EXPECT_LT(*std::max_element(normals.curvature.begin(), normals.curvature.end()), 1e-4F);
 }
@@ -44,7 +44,7 @@ TEST(Normals, DoNotMixSurfacesAcrossADepthJump) {
                 PlaneSurface({0, 0, 0.8}, right));
   const Tabletop tabletop = Observe(surface);
   const PointImage points = MakePointImage(tabletop, kRadius_m);
-  const NormalImage normals = EstimateNormals(points, kRadius_m, 8);
+  const NormalImage normals = EstimateNormals(points, {kRadius_m}, 8);
   EXPECT_LT(LargestError(points, normals, left, [](const auto& p) { return p.x() < 0; }), 0.003);
   EXPECT_LT(LargestError(points, normals, right, [](const auto& p) { return p.x() > 0; }), 0.003);
 }
@@ -56,8 +56,8 @@ TEST(Normals, AreUnknownWithTooFewNeighbors) {
   std::fill(counts.begin(), counts.end(), uint16_t{0});
   for (const size_t pixel : {3205, 3206, 3207, 3365, 3366, 3367, 3525}) counts[pixel] = count;
   const PointImage points = MakePointImage(tabletop, kRadius_m);
-  const NormalImage of_seven = EstimateNormals(points, kRadius_m, 7);
-  const NormalImage of_eight = EstimateNormals(points, kRadius_m, 8);
+  const NormalImage of_seven = EstimateNormals(points, {kRadius_m}, 7);
+  const NormalImage of_eight = EstimateNormals(points, {kRadius_m}, 8);
   EXPECT_TRUE(of_seven.IsKnown(points.Index(1, 1)));
   EXPECT_FALSE(of_eight.IsKnown(points.Index(1, 1)));
 }
@@ -67,7 +67,7 @@ TEST(Normals, AgreeWithPclOnTheSameNeighborhoods) {
                                     PlaneSurface({0.1, 0, 0.8}, {0.6, -0.3, -0.8}));
   const Tabletop tabletop = Observe(surface, 0.0015);
   const PointImage points = MakePointImage(tabletop, kRadius_m);
-  const NormalImage normals = EstimateNormals(points, kRadius_m, 3);
+  const NormalImage normals = EstimateNormals(points, {kRadius_m}, 3);
 
   auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   std::vector<size_t> elements;

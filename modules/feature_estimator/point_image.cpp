@@ -18,7 +18,7 @@ float WindowSlope(float x, float y, float z, float radius_m) {
 
 }  // namespace
 
-PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m) {
+PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min_margin_px) {
   const DepthImage& image = tabletop.objects;
   const PinholeCamera& camera = image.camera;
   PointImage points;
@@ -48,6 +48,7 @@ PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m) {
   points.fy = static_cast<float>(camera.fy / k);
   const float max_columns = max_slope * std::max(points.fx, points.fy);
   points.margin = static_cast<int>(std::min(max_columns, static_cast<float>(kMaxMargin))) + 1;
+  points.margin = std::max(points.margin, min_margin_px);
   points.stride = points.width + 2 * points.margin + PointImage::kLanes;
   const size_t size =
       static_cast<size_t>(points.stride) * static_cast<size_t>(points.height + 2 * points.margin);
@@ -68,19 +69,22 @@ PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m) {
   return points;
 }
 
-SphereWindow::SphereWindow(const PointImage& points, size_t begin, float radius_m)
+SphereWindow::SphereWindow(const PointImage& points, size_t begin, const Neighborhood& neighborhood)
     : fx_(points.fx), inverse_fy_(1 / points.fy), margin_(points.margin) {
   for (size_t i = begin; i < begin + PointImage::kLanes; ++i) {
     if (!points.HasPoint(i)) continue;
-    slope_ = std::max(slope_, WindowSlope(points.x[i], points.y[i], points.z[i], radius_m));
+    slope_ = std::max(slope_, WindowSlope(points.x[i], points.y[i], points.z[i],
+                                          static_cast<float>(neighborhood.radius_m)));
   }
   num_rows_ = std::min(static_cast<int>(slope_ * points.fy), margin_);
+  stride_ = 1 + num_rows_ / (neighborhood.dense_px + 1);
+  num_rows_ = num_rows_ / stride_ * stride_;
 }
 
 int SphereWindow::Columns(int row) const {
   const float y = static_cast<float>(row) * inverse_fy_;
   const float columns = fx_ * std::sqrt(std::max(slope_ * slope_ - y * y, 0.0F));
-  return std::min(static_cast<int>(columns), margin_);
+  return std::min(static_cast<int>(columns), margin_) / stride_ * stride_;
 }
 
 }  // namespace declutter

@@ -35,16 +35,28 @@ struct PointImage {
   bool HasPoint(size_t index) const { return z[index] < kFar; }
 };
 
-// The points of all object pixels; windows of radius max_radius_m stay inside the margin.
-PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m);
+// The points of all object pixels; windows of radius max_radius_m stay inside the margin, which is
+// at least min_margin_px wide.
+PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min_margin_px = 1);
 
-// The image window of all points within a metric radius of any of a few adjacent points: rows
-// -num_rows .. num_rows, in each of them columns -Columns(row) .. Columns(row).
+// Points within a metric radius.
+struct Neighborhood {
+  static constexpr int kReadAll = 1000;
+
+  double radius_m = 0;
+  // Image windows up to this half width are read pixel by pixel, wider ones at a stride:
+  // neighbouring pixels of a sensor share most of their noise.
+  int dense_px = kReadAll;
+};
+
+// The image window of all neighbours of a few adjacent points: every stride-th row of -num_rows ..
+// num_rows, in each of them every stride-th column of -Columns(row) .. Columns(row).
 class SphereWindow {
  public:
   // Around the points in elements [begin, begin + PointImage::kLanes) of one row.
-  SphereWindow(const PointImage& points, size_t begin, float radius_m);
+  SphereWindow(const PointImage& points, size_t begin, const Neighborhood& neighborhood);
 
+  int stride() const { return stride_; }
   int num_rows() const { return num_rows_; }
   int Columns(int row) const;
 
@@ -54,6 +66,7 @@ class SphereWindow {
   float inverse_fy_ = 0;
   int margin_ = 0;
   int num_rows_ = 0;
+  int stride_ = 1;
 };
 
 }  // namespace declutter

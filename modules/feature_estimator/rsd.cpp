@@ -74,7 +74,7 @@ std::vector<float> EstimateMinimumRadius(const PointImage& points, const NormalI
     for (int i = 0; i < points.width; ++i) {
       const size_t p = points.Index(i, j);
       if (!normals.IsKnown(p)) continue;
-      const SphereWindow window(points, p, static_cast<float>(radius_m));
+      const SphereWindow window(points, p, {radius_m});
       const AngleBins bins =
           CollectAngles(points, normals, p, window, static_cast<float>(radius_m), num_bins);
       const double of_largest_angles =

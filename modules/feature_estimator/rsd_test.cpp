@@ -19,7 +19,7 @@ constexpr int kNumBins = 5;
 // r_min of the point seen by the pixel in the middle.
 float MinimumRadiusInTheMiddle(const Tabletop& tabletop) {
   const PointImage points = MakePointImage(tabletop, kRadius_m);
-  const NormalImage normals = EstimateNormals(points, kRadius_m, 8);
+  const NormalImage normals = EstimateNormals(points, {kRadius_m}, 8);
   const std::vector<float> r_min =
       EstimateMinimumRadius(points, normals, kRadius_m, kNumBins, kPlaneRadius_m);
   return r_min[points.Index(points.width / 2, points.height / 2)];
@@ -39,7 +39,7 @@ TEST(MinimumRadius, AgreesWithPclOnTheSameNormals) {
   const Surface surface = NearestOf(CylinderSurface({-0.02, 0, 0.75}, 0.05),
                                     PlaneSurface({0.1, 0, 0.8}, {0.6, -0.3, -0.8}));
   const PointImage points = MakePointImage(Observe(surface, 0.0015), kRadius_m);
-  const NormalImage normals = EstimateNormals(points, kRadius_m, 8);
+  const NormalImage normals = EstimateNormals(points, {kRadius_m}, 8);
   const std::vector<float> r_min =
       EstimateMinimumRadius(points, normals, kRadius_m, kNumBins, kPlaneRadius_m);
 
