@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "modules/codec/solid_parts.h"
 
@@ -12,8 +13,9 @@ void DemandConsistent(const ObjectList& list) {
   DemandImageSize(list.camera.width, list.camera.height, list.header.error);
   const auto num_objects = static_cast<int32_t>(list.objects.size());
   Demand(num_objects <= kMaxObjects, std::to_string(num_objects) + " objects, at most 255");
+  std::set<int32_t> ids;
   for (const ObjectModel& object : list.objects) {
-    Demand(object.id >= 1 && object.id <= num_objects,
+    Demand(object.id >= 1 && object.id <= num_objects && ids.insert(object.id).second,
            "object id " + std::to_string(object.id) + " of " + std::to_string(num_objects));
   }
   const size_t num_pixels = static_cast<size_t>(list.camera.num_pixels());

@@ -157,11 +157,13 @@ TEST(ObjectListCodec, RestoresAListWithAnError) {
   EXPECT_TRUE(received.labels.empty());
 }
 
-TEST(ObjectListCodec, RefusesToEncodeIdsThatLabelsCannotHold) {
+TEST(ObjectListCodec, RefusesToEncodeIdsThatDoNotCountOrThatLabelsCannotHold) {
   ObjectList list = TestObjects();
   list.objects[0].id = 256;
   EXPECT_THROW(Encode(list), std::logic_error);
   list.objects[0].id = 0;
+  EXPECT_THROW(Encode(list), std::logic_error);
+  list.objects[0].id = list.objects[1].id;
   EXPECT_THROW(Encode(list), std::logic_error);
   list = TestObjects();
   list.objects.resize(256, list.objects[0]);
