@@ -1,6 +1,7 @@
 #include "modules/kinect_source/point_clouds.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -42,25 +43,24 @@ std::optional<ColorImage> ColorOf(const PointCloudFile& cloud, const PinholeCame
   return image;
 }
 
+FrameContent ImagesOfGrid(const PointCloudFile& cloud, const OptionalCamera& given) {
+  const std::vector<int> pixels = GridPixels(cloud.points);
+  const PinholeCamera camera = GridCamera(cloud, pixels, given);
+  // Points have a colour even where nothing was measured.
+  std::vector<int> all_pixels(cloud.points.size());
+  std::iota(all_pixels.begin(), all_pixels.end(), 0);
+  return {DepthOf(camera, cloud.points, pixels), ColorOf(cloud, camera, all_pixels), ""};
+}
+
 FrameContent ImagesOf(const PointCloudFile& cloud, const OptionalCamera& given) {
-  PinholeCamera camera;
-  std::vector<int> pixels;
-  if (cloud.is_organised()) {
-    pixels = GridPixels(cloud.points);
-    camera = GridCamera(cloud, pixels, given);
-  } else {
-    if (!given) {
-      throw std::runtime_error(
-          "not organised (height 1) and its camera is not known: set "
-          "intrinsics_file or put intrinsics.json beside it");
-    }
-    camera = *given;
-    pixels = ProjectedPixels(camera, cloud.points);
+  if (cloud.is_organised()) return ImagesOfGrid(cloud, given);
+  if (!given) {
+    throw std::runtime_error(
+        "not organised (height 1) and its camera is not known: set intrinsics_file or put "
+        "intrinsics.json beside it");
   }
-  FrameContent content;
-  content.depth = DepthOf(camera, cloud.points, pixels);
-  content.color = ColorOf(cloud, camera, pixels);
-  return content;
+  const std::vector<int> pixels = ProjectedPixels(*given, cloud.points);
+  return {DepthOf(*given, cloud.points, pixels), ColorOf(cloud, *given, pixels), ""};
 }
 
 FrameContent LoadCloud(const fs::path& path, const OptionalCamera& given) {
