@@ -7,12 +7,13 @@
 namespace declutter {
 namespace {
 
-constexpr float kTopTolerance = 0.025f;  // [m] between the upper end of a face and the top face
-constexpr float kEdgeTolerance = 0.015f; // [m] between a face and the edge of the top face
-constexpr float kMaxBottomGap = 0.020f;  // [m] unseen above the support: it stands there
-constexpr float kTopOnlyDepth = 0.005f;  // [m] of side below a top face of which no side is seen
-constexpr float kMinExtent = 0.015f;     // [m] of a box
-constexpr float kBin = 0.004f;           // [m] of the profile of a top face
+constexpr float kTopTolerance = 0.025f;   // [m] between the upper end of a face and the top face
+constexpr float kEdgeTolerance = 0.015f;  // [m] between a face and the edge of the top face
+constexpr float kMaxBottomGap = 0.020f;   // [m] unseen above the support: it stands there
+constexpr float kTopOnlyDepth = 0.005f;   // [m] of side below a top face of which no side is seen
+constexpr float kMinExtent = 0.015f;      // [m] of a box
+constexpr float kSameHeight = 0.008f;     // [m] between the parts of one top face
+constexpr float kBin = 0.004f;            // [m] of the profile of a top face
 
 // A box seen from above: p = a * axis + b * perpendicular, in T.
 struct Rectangle {
@@ -31,8 +32,8 @@ struct Rectangle {
 Hypothesis MakeBox(const Rectangle& r) {
   Hypothesis hypothesis;
   const float bottom = r.z_min < kMaxBottomGap ? 0.0f : r.z_min;
-  const Eigen::Vector2f centre = 0.5f * (r.a_min + r.a_max) * r.axis +
-                                 0.5f * (r.b_min + r.b_max) * r.perpendicular();
+  const Eigen::Vector2f centre =
+      0.5f * (r.a_min + r.a_max) * r.axis + 0.5f * (r.b_min + r.b_max) * r.perpendicular();
   hypothesis.solid.shape = Shape::kBox;
   hypothesis.solid.X_CO.linear() =
       Eigen::AngleAxisd(std::atan2(r.axis.y(), r.axis.x()), Eigen::Vector3d::UnitZ())
@@ -124,8 +125,8 @@ bool IsAttached(const Face& face, const TopPatch& patch) {
   for (const Eigen::Vector2f& p : patch.points) {
     const float depth = line.rho - line.n.dot(p);
     const float s = line.tangent().dot(p);
-    num_near += depth > -kEdgeTolerance && depth < 2 * kEdgeTolerance && s > line.s_min &&
-                s < line.s_max;
+    num_near +=
+        depth > -kEdgeTolerance && depth < 2 * kEdgeTolerance && s > line.s_min && s < line.s_max;
   }
   return num_near >= 10;
 }
@@ -250,6 +251,25 @@ std::vector<Face> WithJoinedFaces(const std::vector<Face>& faces, float max_exte
   return all;
 }
 
+// All patches, and those that come of joining two at the same height: something may stand between
+// them or in front.
+std::vector<TopPatch> WithJoinedPatches(const std::vector<TopPatch>& tops) {
+  std::vector<TopPatch> all = tops;
+  for (size_t i = 0; i < tops.size(); ++i) {
+    for (size_t j = i + 1; j < tops.size(); ++j) {
+      if (tops[i].component != tops[j].component ||
+          std::abs(tops[i].height - tops[j].height) > kSameHeight) {
+        continue;
+      }
+      TopPatch joined = tops[i];
+      joined.points.insert(joined.points.end(), tops[j].points.begin(), tops[j].points.end());
+      joined.hull.insert(joined.hull.end(), tops[j].hull.begin(), tops[j].hull.end());
+      all.push_back(std::move(joined));
+    }
+  }
+  return all;
+}
+
 bool IsGraspable(const Rectangle& r, float max_extent) {
   const float a = r.a_max - r.a_min;
   const float b = r.b_max - r.b_min;
@@ -264,7 +284,7 @@ std::vector<Hypothesis> CompleteBoxes(const HoughSegmenterConfig& config,
   const std::vector<Face> faces = WithJoinedFaces(surfaces.faces, max_extent);
   std::vector<Rectangle> rectangles;
   std::vector<char> has_depth(faces.size(), 0);
-  for (const TopPatch& patch : surfaces.tops) {
+  for (const TopPatch& patch : WithJoinedPatches(surfaces.tops)) {
     std::vector<const Face*> attached;
     for (size_t i = 0; i < faces.size(); ++i) {
       if (faces[i].component != patch.component || !IsAttached(faces[i], patch)) continue;

@@ -47,8 +47,7 @@ std::optional<CircleModel> FitDisc(const TopPatch& patch) {
   double area = 0;
   for (size_t i = 0; i < patch.hull.size(); ++i) {
     const Eigen::Vector2d p = (patch.hull[i] - origin).cast<double>();
-    const Eigen::Vector2d q =
-        (patch.hull[(i + 1) % patch.hull.size()] - origin).cast<double>();
+    const Eigen::Vector2d q = (patch.hull[(i + 1) % patch.hull.size()] - origin).cast<double>();
     area += 0.5 * (p.x() * q.y() - p.y() * q.x());
     // Points along the edge, so that its length counts.
     const int num_steps = 1 + static_cast<int>((q - p).norm() / 0.002);

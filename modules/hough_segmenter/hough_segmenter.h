@@ -7,7 +7,8 @@
 
 namespace declutter {
 
-// Proposes boxes and cylinders by votes of randomised line and circle fits (paper, sections 4 and 5).
+// Proposes boxes and cylinders by votes of randomised line and circle fits (paper, sections 4 and
+// 5).
 class HoughSegmenter {
  public:
   explicit HoughSegmenter(const HoughSegmenterConfig& config);

@@ -38,10 +38,9 @@ std::vector<Span> Clusters(const std::vector<SideCell>& cells, const std::vector
 
 template <typename Condition>
 void KeepIf(const std::vector<SideCell>& cells, std::vector<int>* inliers, Condition condition) {
-  inliers->erase(
-      std::remove_if(inliers->begin(), inliers->end(),
-                     [&](int i) { return !condition(cells[static_cast<size_t>(i)]); }),
-      inliers->end());
+  inliers->erase(std::remove_if(inliers->begin(), inliers->end(),
+                                [&](int i) { return !condition(cells[static_cast<size_t>(i)]); }),
+                 inliers->end());
 }
 
 }  // namespace

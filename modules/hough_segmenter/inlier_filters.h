@@ -8,8 +8,8 @@ namespace declutter {
 
 // The filters of section 5. Each keeps or clears the inliers of a fit; indices are into `cells`.
 
-// Line: inliers form one cluster along the line without a gap over max_gap_m. In paper mode a fit of
-// several clusters is rejected, else the one with the most points is kept.
+// Line: inliers form one cluster along the line without a gap over max_gap_m. In paper mode a fit
+// of several clusters is rejected, else the one with the most points is kept.
 void KeepOneRun(const std::vector<SideCell>& cells, float max_gap_m, FeatureMode mode,
                 LineFit* fit);
 

@@ -10,8 +10,8 @@ constexpr float kMaxAngle = 0.10f;     // [rad] between lines of one peak
 constexpr float kMaxDistance = 0.01f;  // [m] between lines or circles of one peak
 
 bool IsNear(const LineModel& a, const LineModel& b) {
-  const float s = std::clamp(b.tangent().dot(a.PointAt(0.5f * (a.s_min + a.s_max))), b.s_min - 0.02f,
-                             b.s_max + 0.02f);
+  const float s = std::clamp(b.tangent().dot(a.PointAt(0.5f * (a.s_min + a.s_max))),
+                             b.s_min - 0.02f, b.s_max + 0.02f);
   return a.n.dot(b.n) > std::cos(kMaxAngle) &&
          std::abs(a.n.dot(b.PointAt(s)) - a.rho) < kMaxDistance &&
          std::min(a.s_max, a.tangent().dot(b.PointAt(b.s_max))) >

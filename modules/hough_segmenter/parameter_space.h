@@ -7,7 +7,8 @@
 
 namespace declutter {
 
-// Votes for models of one shape: (theta, rho) for lines, (cx, cy, r) for circles (paper, section 4).
+// Votes for models of one shape: (theta, rho) for lines, (cx, cy, r) for circles (paper, section
+// 4).
 template <typename Model>
 class ParameterSpace {
  public:

@@ -9,10 +9,10 @@
 namespace declutter {
 namespace {
 
-constexpr float kBucketSide = 0.05f;         // [m] squares in which the partner of a sample is drawn
-constexpr size_t kMaxScoredCells = 400;      // cells that decide between samples
-constexpr float kMinBaseline = 0.008f;       // [m] of the two cells of a sample
-constexpr int kMaxDraws = 12;                // of a partner, before a sample is given up
+constexpr float kBucketSide = 0.05f;     // [m] squares in which the partner of a sample is drawn
+constexpr size_t kMaxScoredCells = 400;  // cells that decide between samples
+constexpr float kMinBaseline = 0.008f;   // [m] of the two cells of a sample
+constexpr int kMaxDraws = 12;            // of a partner, before a sample is given up
 constexpr float kMinKappaTimesRadius = 0.3f;  // median over the inliers of a circle
 
 LineModel LineThrough(const SideCell& a, const SideCell& b) {

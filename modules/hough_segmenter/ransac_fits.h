@@ -54,8 +54,8 @@ class SideFitter {
   SideFitter(const HoughSegmenterConfig& config, FeatureMode mode,
              const std::vector<SideCell>& cells, uint64_t seed);
 
-  // The best supported of the random samples among the cells that are set in `is_free`, filtered and
-  // refitted; nothing when it keeps fewer than N points.
+  // The best supported of the random samples among the cells that are set in `is_free`, filtered
+  // and refitted; nothing when it keeps fewer than N points.
   std::optional<LineFit> FitLine(const std::vector<char>& is_free);
   std::optional<CircleFit> FitCircle(const std::vector<char>& is_free);
 
@@ -81,8 +81,8 @@ class SideFitter {
   const std::vector<SideCell>& cells_;
   float min_cos_;
   std::mt19937_64 random_;
-  std::vector<int> subsample_;                // cells that samples are scored on
-  std::vector<std::vector<int>> buckets_;     // cells of each square of the table
+  std::vector<int> subsample_;             // cells that samples are scored on
+  std::vector<std::vector<int>> buckets_;  // cells of each square of the table
   std::vector<int> bucket_of_cell_;
   int num_bucket_columns_ = 0;
 };

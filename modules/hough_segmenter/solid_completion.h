@@ -16,13 +16,13 @@ struct Surfaces {
   std::vector<TopPatch> tops;
 };
 
-// Measures the extents of faces and arcs again on the points instead of the cells, where normals and
-// curvature near an outline have kept cells out.
+// Measures the extents of faces and arcs again on the points instead of the cells, where normals
+// and curvature near an outline have kept cells out.
 void MeasureExtents(const std::vector<TablePoint>& points, Surfaces* surfaces);
 
 // Region growing from front faces and top faces to full boxes (paper, section 4). Hypotheses in T:
-// X_CO holds X_TO. Where nothing is seen below a solid, it ends there and the evidence of its height
-// is kAssumed.
+// X_CO holds X_TO. Where nothing is seen below a solid, it ends there and the evidence of its
+// height is kAssumed.
 std::vector<Hypothesis> CompleteBoxes(const HoughSegmenterConfig& config, const Surfaces& surfaces);
 
 // Full cylinders from arcs and discs, in the same way.

@@ -14,8 +14,8 @@ double SharedVolume(const Solid& a, const SolidCaster& b) {
   for (int i = 0; i < kSteps; ++i) {
     for (int j = 0; j < kSteps; ++j) {
       for (int k = 0; k < kSteps; ++k) {
-        const Eigen::Vector3d x = Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5) / kSteps -
-                                  Eigen::Vector3d::Constant(0.5);
+        const Eigen::Vector3d x =
+            Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5) / kSteps - Eigen::Vector3d::Constant(0.5);
         if (a.shape == Shape::kCylinder && x.head<2>().norm() > 0.5) continue;
         ++num_samples;
         num_inside += b.SignedDistance(a.X_CO * x.cwiseProduct(a.size)) < -kMinDepth;
@@ -36,7 +36,8 @@ double Gain(const ModelVerifierConfig& config, const Candidate& candidate,
   for (const auto& pixel : candidate.evidence.explained) {
     if (!is_taken[static_cast<size_t>(pixel.pixel)]) gain += pixel.fit;
   }
-  double penalty = config.violation_weight() * candidate.evidence.num_violating;
+  double penalty = config.violation_weight() *
+                   (candidate.evidence.num_violating + candidate.evidence.num_contradicting);
   for (Evidence extent : candidate.hypothesis.evidence) {
     if (extent == Evidence::kAssumed) penalty += config.assumption_penalty() * gain;
   }
@@ -47,13 +48,15 @@ double Gain(const ModelVerifierConfig& config, const Candidate& candidate,
 
 std::vector<Candidate> SelectModels(const ModelVerifierConfig& config,
                                     const std::vector<Hypothesis>& hypotheses,
-                                    const DepthImage& image, const Plane& support) {
+                                    const DepthImage& image, const NormalImage& normals,
+                                    const Plane& support) {
   std::vector<Candidate> candidates;
   for (const Hypothesis& hypothesis : hypotheses) {
-    Candidate candidate{hypothesis, CastRays(hypothesis.solid, image, support), 0};
+    Candidate candidate{hypothesis, CastRays(hypothesis.solid, image, normals, support), 0};
     const auto num_explained = static_cast<double>(candidate.evidence.explained.size());
     if (num_explained < config.min_explained_px() ||
-        candidate.evidence.num_violating > config.max_violating_share() * num_explained) {
+        candidate.evidence.num_violating + candidate.evidence.num_contradicting >
+            config.max_violating_share() * num_explained) {
       continue;
     }
     candidates.push_back(std::move(candidate));

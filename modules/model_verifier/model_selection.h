@@ -15,10 +15,12 @@ struct Candidate {
   double gain = 0;  // [px] explained by it alone when it was selected, less what speaks against it
 };
 
-// The set of solids that explains the image best: takes the hypothesis that explains the most pixels
-// nobody else explains, again and again, until none explains enough. Solids do not share space.
+// The set of solids that explains the image best: takes the hypothesis that explains the most
+// pixels nobody else explains, again and again, until none explains enough. Solids do not share
+// space.
 std::vector<Candidate> SelectModels(const ModelVerifierConfig& config,
                                     const std::vector<Hypothesis>& hypotheses,
-                                    const DepthImage& image, const Plane& support);
+                                    const DepthImage& image, const NormalImage& normals,
+                                    const Plane& support);
 
 }  // namespace declutter

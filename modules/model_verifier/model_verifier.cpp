@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "modules/model_verifier/model_selection.h"
+#include "modules/model_verifier/refinement.h"
 
 namespace declutter {
 namespace {
@@ -27,8 +28,7 @@ bool IsOver(const Solid& upper, const Solid& lower) {
       const Eigen::Vector3d p_O(0.3 * i * upper.size.x(), 0.3 * j * upper.size.y(), 0);
       const Eigen::Vector3d axis_C = upper.X_CO.linear().col(2);
       const Eigen::Vector3d p_C = upper.X_CO * p_O;
-      const Eigen::Vector3d in_lower =
-          p_C - axis_C * axis_C.dot(p_C - lower.X_CO.translation());
+      const Eigen::Vector3d in_lower = p_C - axis_C * axis_C.dot(p_C - lower.X_CO.translation());
       num_over += caster.SignedDistance(in_lower) < 0;
     }
   }
@@ -84,7 +84,8 @@ void Label(const std::vector<RayEvidence>& evidence, ObjectList* list) {
 
 double Confidence(const RayEvidence& evidence) {
   const auto explained = static_cast<double>(evidence.explained.size());
-  return explained / (explained + 2.0 * evidence.num_violating + 50.0);
+  return explained /
+         (explained + 2.0 * (evidence.num_violating + evidence.num_contradicting) + 50.0);
 }
 
 }  // namespace
@@ -102,10 +103,11 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   if (list.planes.empty() || frame.image.empty()) return list;
 
   const Plane& support = list.planes[0];
+  const NormalImage normals(frame.image);
   for (const Candidate& candidate :
-       SelectModels(config_, hypotheses.hypotheses, frame.image, support)) {
+       SelectModels(config_, hypotheses.hypotheses, frame.image, normals, support)) {
     ObjectModel object;
-    object.solid = candidate.hypothesis.solid;
+    object.solid = Refine(candidate.hypothesis.solid, frame.image, normals);
     object.evidence = candidate.hypothesis.evidence;
     object.num_votes = candidate.hypothesis.num_votes;
     list.objects.push_back(object);
@@ -114,7 +116,7 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   std::vector<RayEvidence> evidence;
   for (size_t i = 0; i < list.objects.size(); ++i) {
     ObjectModel& object = list.objects[i];
-    evidence.push_back(CastRays(object.solid, frame.image, support));
+    evidence.push_back(CastRays(object.solid, frame.image, normals, support));
     object.id = static_cast<int32_t>(i + 1);
     object.num_explained = static_cast<int32_t>(evidence[i].explained.size());
     object.num_occluded = evidence[i].num_occluded;

@@ -6,8 +6,8 @@
 
 namespace declutter {
 
-// Checks hypotheses against the depth image by ray casting: free, occluded and occupied space (paper,
-// sections 1 and 4).
+// Checks hypotheses against the depth image by ray casting: free, occluded and occupied space
+// (paper, sections 1 and 4).
 class ModelVerifier {
  public:
   explicit ModelVerifier(const ModelVerifierConfig& config);

@@ -7,20 +7,19 @@
 namespace declutter {
 namespace {
 
-// Pixel rectangle, end exclusive.
-struct Window {
-  int u_begin = 0, u_end = 0, v_begin = 0, v_end = 0;
-};
+constexpr double kEdgeMargin = 0.012;   // [m] around the edges of a solid normals are blurred
+constexpr float kMinNormalCos = 0.85f;  // of a measured normal and the surface's: 32 degrees
 
-// Around the projection of the solid's bounding box; the whole image when it reaches behind the
-// camera.
-Window ProjectionWindow(const Solid& solid, const PinholeCamera& camera) {
+}  // namespace
+
+PixelWindow ProjectionWindow(const Solid& solid, double margin_m, const PinholeCamera& camera) {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::max());
   Eigen::Vector2d high = -low;
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3d sign((corner & 1) - 0.5, ((corner >> 1) & 1) - 0.5,
                                ((corner >> 2) & 1) - 0.5);
-    const Eigen::Vector3d p_C = solid.X_CO * sign.cwiseProduct(solid.size);
+    const Eigen::Vector3d p_C =
+        solid.X_CO * sign.cwiseProduct(solid.size + Eigen::Vector3d::Constant(2 * margin_m));
     if (p_C.z() <= 0.05) return {0, camera.width, 0, camera.height};
     const Eigen::Vector2d pixel = camera.Project(p_C);
     low = low.cwiseMin(pixel);
@@ -32,8 +31,6 @@ Window ProjectionWindow(const Solid& solid, const PinholeCamera& camera) {
   return {clamp(std::floor(low.x()), camera.width), clamp(std::ceil(high.x()) + 1, camera.width),
           clamp(std::floor(low.y()), camera.height), clamp(std::ceil(high.y()) + 1, camera.height)};
 }
-
-}  // namespace
 
 SolidCaster::SolidCaster(const Solid& solid)
     : shape_(solid.shape), half_size_(0.5 * solid.size), X_OC_(solid.X_CO.inverse()) {}
@@ -89,12 +86,40 @@ double SolidCaster::SignedDistance(const Eigen::Vector3d& p_C) const {
   return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
 }
 
-double SurfaceTolerance(double z) { return std::max(0.005, 3 * 0.002 * z * z); }
+std::optional<Eigen::Vector3d> SolidCaster::NormalAt(const Eigen::Vector3d& p_C,
+                                                     double edge_margin) const {
+  const Eigen::Vector3d p = X_OC_ * p_C;
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();
+  if (shape_ == Shape::kCylinder) {
+    const double radial = p.head<2>().norm();
+    const double depth_of_side = radial - half_size_.x();
+    const double depth_of_end = std::abs(p.z()) - half_size_.z();
+    if (std::min(depth_of_side, depth_of_end) > -edge_margin || radial < 1e-9) return std::nullopt;
+    if (depth_of_side > depth_of_end) {
+      n.head<2>() = p.head<2>() / radial;
+    } else {
+      n.z() = std::copysign(1.0, p.z());
+    }
+  } else {
+    Eigen::Vector3d q = p.cwiseAbs() - half_size_;
+    int face = 0;
+    q.maxCoeff(&face);
+    n[face] = std::copysign(1.0, p[face]);
+    q[face] = std::numeric_limits<double>::lowest();
+    if (q.maxCoeff() > -edge_margin) return std::nullopt;
+  }
+  return X_OC_.linear().transpose() * n;
+}
 
-RayEvidence CastRays(const Solid& solid, const DepthImage& image, const Plane& support) {
+double MeasurementSigma(double z) { return 0.002 * z * z; }
+
+double SurfaceTolerance(double z) { return std::max(0.005, 3 * MeasurementSigma(z)); }
+
+RayEvidence CastRays(const Solid& solid, const DepthImage& image, const NormalImage& normals,
+                     const Plane& support) {
   const PinholeCamera& camera = image.camera;
   const SolidCaster caster(solid);
-  const Window window = ProjectionWindow(solid, camera);
+  const PixelWindow window = ProjectionWindow(solid, 0, camera);
   RayEvidence evidence;
   for (int v = window.v_begin; v < window.v_end; ++v) {
     for (int u = window.u_begin; u < window.u_end; ++u) {
@@ -111,6 +136,12 @@ RayEvidence CastRays(const Solid& solid, const DepthImage& image, const Plane& s
       const bool is_on_support = support.Height(p_C) < 0.8 * tolerance;
       const double distance = caster.SignedDistance(p_C);
       if (std::abs(distance) < tolerance && !is_on_support) {
+        const auto n_C = caster.NormalAt(p_C, kEdgeMargin);
+        const Eigen::Vector3f& measured = normals.At(u, v);
+        if (n_C && !measured.isZero() && measured.dot(n_C->cast<float>()) < kMinNormalCos) {
+          ++evidence.num_contradicting;
+          continue;
+        }
         const double relative = distance / tolerance;
         evidence.explained.push_back({v * camera.width + u,
                                       static_cast<float>(1 - relative * relative),

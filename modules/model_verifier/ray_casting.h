@@ -8,8 +8,18 @@
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/plane.h"
 #include "modules/geometry/solid.h"
+#include "modules/model_verifier/normal_image.h"
 
 namespace declutter {
+
+// Pixel rectangle, end exclusive.
+struct PixelWindow {
+  int u_begin = 0, u_end = 0, v_begin = 0, v_end = 0;
+};
+
+// The part of the image that a solid with a margin around it projects to; the whole image when it
+// reaches behind the camera.
+PixelWindow ProjectionWindow(const Solid& solid, double margin_m, const PinholeCamera& camera);
 
 // Where a ray from the camera passes through a solid, as depths z in C [m].
 struct Passage {
@@ -29,6 +39,10 @@ class SolidCaster {
   // [m] distance of a point to the surface, negative inside.
   double SignedDistance(const Eigen::Vector3d& p_C) const;
 
+  // Outward unit normal in C of the face nearest to a point of the surface; nothing within
+  // `edge_margin` [m] of an edge, where two faces meet.
+  std::optional<Eigen::Vector3d> NormalAt(const Eigen::Vector3d& p_C, double edge_margin) const;
+
  private:
   Shape shape_;
   Eigen::Vector3d half_size_;
@@ -44,6 +58,7 @@ struct RayEvidence {
   };
   std::vector<ExplainedPixel> explained;  // measured on the surface
   std::vector<int> hollow;                // pixels that look into a cylinder through its open top
+  int num_contradicting = 0;              // measured on the surface, with another normal
   int num_occluded = 0;                   // hidden by something in front
   int num_violating = 0;                  // measured behind the surface: free space inside
   int num_unknown = 0;                    // not measured
@@ -51,10 +66,15 @@ struct RayEvidence {
 
 // Casts a ray through each pixel that can see the solid. Points within the noise of the support
 // plane belong to the plane and explain nothing.
-RayEvidence CastRays(const Solid& solid, const DepthImage& image, const Plane& support);
+RayEvidence CastRays(const Solid& solid, const DepthImage& image, const NormalImage& normals,
+                     const Plane& support);
 
-// [m] distance from a surface within which a measurement at depth z lies on it: 3 standard deviations
-// of the sensor noise.
+// [m] distance from a surface within which a measurement at depth z lies on it: 3 standard
+// deviations of the sensor noise.
 double SurfaceTolerance(double z);
+
+// [m] standard deviation of a measurement at depth z along its ray: 0.7 counts of disparity of a
+// Kinect, K / z counts with K = 347 m.
+double MeasurementSigma(double z);
 
 }  // namespace declutter

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "modules/geometry/depth_image.h"
+#include "modules/geometry/solid.h"
+#include "modules/model_verifier/normal_image.h"
+
+namespace declutter {
+
+// Fits a solid to all points on its surface by weighted least squares (weight: inverse variance
+// along the surface normal). Faces that are seen move onto their points; an edge behind which a
+// face is not seen moves to where the area of the face in front of it ends, so that it is not
+// biased by the pixels a percentile would cut off. Parameters without enough points keep their
+// value.
+Solid Refine(const Solid& solid, const DepthImage& image, const NormalImage& normals);
+
+}  // namespace declutter
