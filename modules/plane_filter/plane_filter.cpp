@@ -14,6 +14,9 @@ namespace {
 // Supports are refined on every n-th pixel: neighbours share most of their noise.
 constexpr int kRefineStride = 2;
 
+// Smallest connected region of a support, as part of the image: objects in front leave islands.
+constexpr double kMinRegionPart = 0.001;
+
 // The plane by least squares over its connected region in image, and that region.
 PlaneCandidate Refine(const InverseDepth& image, const InversePlane& plane,
                       const PlaneFilterConfig& config) {
@@ -23,7 +26,7 @@ PlaneCandidate Refine(const InverseDepth& image, const InversePlane& plane,
       static_cast<int>(config.min_plane_fraction() / 4 * static_cast<double>(image.values.size()));
   PlaneCandidate refined;
   refined.plane = plane;
-  refined.region = CoherentRegion(image, PlaneInliers(image, plane, band), min_region_pixels);
+  refined.region = CoherentRegion(image, plane, band, min_region_pixels);
   // Feet of objects are in the band on one side only; a narrower one leaves them out.
   for (const float sigmas : {2.5f, 2.0f, 2.0f}) {
     const auto fit = FitInliers(image, refined.region, refined.plane, sigmas * sigma);

@@ -10,13 +10,13 @@ namespace declutter {
 // A dominant plane and the connected regions of the image that lie in it.
 struct PlaneCandidate {
   InversePlane plane;
-  PixelMask region;    // inliers amid inliers
+  PixelMask region;    // as CoherentRegion gives it
   int num_pixels = 0;  // of the region
 };
 
-// Keeps inliers whose neighbours are mostly inliers, in connected regions of at least
-// min_region_pixels: drops the stripes where the plane cuts through other surfaces.
-PixelMask CoherentRegion(const InverseDepth& image, const PixelMask& inliers,
+// Pixels within band [1/m] of the plane whose neighbours mostly are too, in connected regions of at
+// least min_region_pixels that lie in the plane instead of cutting through it.
+PixelMask CoherentRegion(const InverseDepth& image, const InversePlane& plane, float band,
                          int min_region_pixels);
 
 // Dominant planes by RANSAC, refined by least squares, largest first as they are found and removed
