@@ -3,7 +3,6 @@
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
-#include <regex>
 #include <sstream>
 
 #include "modules/runtime/parameter_check.h"
@@ -39,13 +38,16 @@ const Descriptor* FindType(const Descriptor& root, const std::string& full_name,
   return nullptr;
 }
 
-// The parser's own message does not say which field was meant, and points behind its name.
+// The parser's own message, `Message type "T" has no field named "f".`, does not say which field
+// was meant, and points behind its name.
 void ExplainUnknownField(const std::string& text, const Descriptor& root, ConfigFault* fault) {
-  static const std::regex pattern("Message type \"([^\"]+)\" has no field named \"([^\"]+)\".*");
-  std::smatch match;
-  if (!std::regex_match(fault->text, match, pattern)) return;
-  const std::string type_name = match[1];
-  const std::string name = match[2];
+  if (fault->text.find("\" has no field named \"") == std::string::npos) return;
+  std::istringstream words(fault->text);
+  std::string skipped, type_name, name;
+  std::getline(words, skipped, '"');
+  std::getline(words, type_name, '"');
+  std::getline(words, skipped, '"');
+  std::getline(words, name, '"');
   const Descriptor* type = FindType(root, type_name);
   fault->text = "no field named '" + name + "' in " + type_name +
                 (type != nullptr ? Suggestion(name, FieldNames(*type)) : "");
