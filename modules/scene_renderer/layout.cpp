@@ -14,7 +14,6 @@ constexpr double kOverlapTolerance_m = 1e-6;
 
 PlacedObject PlaceObject(const SceneObject& stated, int index,
                          const std::vector<PlacedObject>& before) {
-  const std::string name = "object " + std::to_string(index);
   PlacedObject object;
   if (stated.has_box()) {
     object.footprint.half = {0.5 * stated.box().size_x_m(), 0.5 * stated.box().size_y_m()};
@@ -25,15 +24,15 @@ PlacedObject PlaceObject(const SceneObject& stated, int index,
     object.footprint.half.setConstant(stated.cylinder().radius_m());
     object.height_m = stated.cylinder().height_m();
   } else {
-    throw std::invalid_argument(name + " is neither a box nor a cylinder");
+    throw ObjectFault(index, "is neither a box nor a cylinder");
   }
   object.footprint.centre = {stated.x_m(), stated.y_m()};
   object.footprint.yaw_rad = stated.yaw_rad();
   object.bottom_m = stated.support_height_m();
   if (stated.has_on()) {
     if (stated.on() < 0 || stated.on() >= static_cast<int>(before.size())) {
-      throw std::invalid_argument(name + " stands on object " + std::to_string(stated.on()) +
-                                  ", which is not listed before it");
+      throw ObjectFault(index, "stands on object " + std::to_string(stated.on()) +
+                                   ", which is not listed before it");
     }
     object.on = stated.on();
     const PlacedObject& support = before[static_cast<size_t>(object.on)];
@@ -83,9 +82,8 @@ std::vector<PlacedObject> PlaceObjects(const Scene& scene) {
     for (size_t other = 0; other < objects.size(); ++other) {
       const double gap_m = Gap(objects[other].footprint, object.footprint);
       if (ShareHeights(objects[other], object) && gap_m < -kOverlapTolerance_m) {
-        throw std::invalid_argument("object " + std::to_string(index) + " cuts " +
-                                    std::to_string(-1000 * gap_m) + " mm into object " +
-                                    std::to_string(other));
+        throw ObjectFault(index, "cuts " + std::to_string(-1000 * gap_m) + " mm into object " +
+                                     std::to_string(other));
       }
     }
     objects.push_back(object);

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "modules/geometry/depth_image.h"
@@ -21,13 +23,24 @@ struct PlacedObject {
   Eigen::Vector3d color = {0.6, 0.6, 0.6};  // base colour, 0..1
 };
 
+// Why an object of a scene cannot be put down.
+class ObjectFault : public std::invalid_argument {
+ public:
+  ObjectFault(int object, const std::string& what)
+      : std::invalid_argument("object " + std::to_string(object) + " " + what), object_(object) {}
+  int object() const { return object_; }  // counted from 0
+
+ private:
+  int object_;
+};
+
 PinholeCamera CameraOf(const SceneCamera& camera);
 
 // Pose X_WC. Throws std::invalid_argument for a quaternion that is no rotation.
 Eigen::Isometry3d CameraPose(const SceneCamera& camera);
 
-// The objects a scene states, colours filled in. Throws std::invalid_argument, naming the object,
-// when one has no shape, stands on one that is not listed before it, or cuts into another.
+// The objects a scene states, colours filled in. Throws ObjectFault when one has no shape, stands
+// on one that is not listed before it, or cuts into another.
 std::vector<PlacedObject> PlaceObjects(const Scene& scene);
 
 // The same objects as scene text would state them.

@@ -112,7 +112,7 @@ int main(int argc, char** argv) {
     try {
       RenderAll(scene, options);
     } catch (const std::invalid_argument& fault) {
-      throw std::invalid_argument(options.scene + ":1:1: " + fault.what());
+      throw std::invalid_argument(options.scene + ": " + fault.what());
     }
     return 0;
   } catch (const std::invalid_argument& fault) {

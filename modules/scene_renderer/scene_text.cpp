@@ -9,6 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "modules/scene_renderer/layout.h"
+
 namespace declutter {
 namespace {
 
@@ -40,7 +42,7 @@ std::string Text(double value) {
   return out.str();
 }
 
-// Value of a number; `index` is ignored for a field that is not repeated.
+// Value of a number that may have a range; 0 for other kinds of field.
 double NumberOf(const Message& message, const FieldDescriptor& field) {
   const google::protobuf::Reflection& reflection = *message.GetReflection();
   switch (field.cpp_type()) {
@@ -97,6 +99,24 @@ void CheckValues(const Message& message, const TextFormat::ParseInfoTree& places
   }
 }
 
+// Faults of the scene's meaning: at the camera or at the first object that cannot be put down.
+void CheckMeaning(const Scene& scene, const TextFormat::ParseInfoTree& places, Faults* faults) {
+  const google::protobuf::Descriptor& fields = *Scene::descriptor();
+  try {
+    CameraPose(scene.camera());
+  } catch (const std::invalid_argument& fault) {
+    const auto place = places.GetLocation(fields.FindFieldByNumber(Scene::kCameraFieldNumber), -1);
+    faults->AddError(place.line, place.column, fault.what());
+  }
+  try {
+    PlaceObjects(scene);
+  } catch (const ObjectFault& fault) {
+    const auto place =
+        places.GetLocation(fields.FindFieldByNumber(Scene::kObjectFieldNumber), fault.object());
+    faults->AddError(place.line, place.column, fault.what());
+  }
+}
+
 }  // namespace
 
 Scene ParseScene(const std::string& text, const std::string& name) {
@@ -108,6 +128,7 @@ Scene ParseScene(const std::string& text, const std::string& name) {
   parser.WriteLocationsTo(&places);
   const bool parsed = parser.ParseFromString(text, &scene);
   if (parsed) CheckValues(scene, places, &faults);
+  if (faults.text().empty()) CheckMeaning(scene, places, &faults);
   if (!faults.text().empty()) throw std::invalid_argument(faults.text());
   return scene;
 }

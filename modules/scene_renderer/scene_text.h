@@ -8,7 +8,7 @@ namespace declutter {
 
 // A scene from protobuf text. `name` is the file's, for messages. Throws std::invalid_argument with
 // every fault, one "name:line:column: what is wrong" each: syntax, unknown fields, values outside
-// their range.
+// their range, then objects that cannot be put down as stated.
 Scene ParseScene(const std::string& text, const std::string& name);
 
 // The scene as text that ParseScene reads back equal.

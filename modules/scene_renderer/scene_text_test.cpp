@@ -37,6 +37,11 @@ TEST(SceneTextTest, NamesTheModelsOfNoiseThereAre) {
             "a.textproto:1:9: model = \"pink\" is none of \"real_sensor\" \"white\" \"none\"");
 }
 
+TEST(SceneTextTest, NamesThePlaceOfAnObjectThatCannotBePutDown) {
+  EXPECT_EQ(FaultOf("object { box {} }\n  object { box {} on: 4 }"),
+            "a.textproto:2:3: object 1 stands on object 4, which is not listed before it");
+}
+
 TEST(SceneTextTest, PrintedSceneReadsBackEqual) {
   const Scene scene = ParseScene("object { box {} x_m: 0.12345678901 } clutter { seed: 3 }", "");
   EXPECT_EQ(ParseScene(PrintScene(scene), "").SerializeAsString(), scene.SerializeAsString());

@@ -10,7 +10,7 @@
 namespace declutter {
 namespace {
 
-// Distances at which the independent noise is stated to grow from.
+// The depth from which on the independent noise grows.
 constexpr double kWhiteNoiseDepth_m = 0.4;
 
 // Independent random streams of one seed.

@@ -41,25 +41,31 @@ void CloseShadows(double offset_m, std::uniform_int_distribution<int> closing,
   }
 }
 
+// Adds to the mask what one viewer cannot see.
+void AddShadows(const IdealImage& ideal, double offset_m, int min_closing_px, int max_closing_px,
+                std::mt19937_64* random, std::vector<uint8_t>* mask) {
+  if (offset_m == 0) return;
+  const std::uniform_int_distribution<int> closing(min_closing_px,
+                                                   std::max(min_closing_px, max_closing_px));
+  const size_t width = static_cast<size_t>(ideal.camera.width);
+  std::vector<uint8_t> hidden(width);
+  for (int v = 0; v < ideal.camera.height; ++v) {
+    CastShadows(ideal, v, offset_m, &hidden);
+    CloseShadows(offset_m, closing, random, &hidden);
+    uint8_t* row = mask->data() + static_cast<size_t>(v) * width;
+    for (size_t u = 0; u < width; ++u) row[u] |= hidden[u];
+  }
+}
+
 }  // namespace
 
 std::vector<uint8_t> ShadowMask(const IdealImage& ideal, const SceneNoise& noise, uint64_t seed) {
-  const size_t width = static_cast<size_t>(ideal.camera.width);
   std::mt19937_64 random(seed);
-  const std::uniform_int_distribution<int> closing(
-      noise.min_shadow_closing_px(),
-      std::max(noise.min_shadow_closing_px(), noise.max_shadow_closing_px()));
   std::vector<uint8_t> mask(ideal.z.size(), 0);
-  std::vector<uint8_t> hidden(width);
-  for (const double offset_m : {noise.projector_x_m(), noise.infrared_camera_x_m()}) {
-    if (offset_m == 0) continue;
-    for (int v = 0; v < ideal.camera.height; ++v) {
-      CastShadows(ideal, v, offset_m, &hidden);
-      CloseShadows(offset_m, closing, &random, &hidden);
-      uint8_t* row = mask.data() + static_cast<size_t>(v) * width;
-      for (size_t u = 0; u < width; ++u) row[u] |= hidden[u];
-    }
-  }
+  AddShadows(ideal, noise.projector_x_m(), noise.min_projector_closing_px(),
+             noise.max_projector_closing_px(), &random, &mask);
+  AddShadows(ideal, noise.infrared_camera_x_m(), noise.min_infrared_closing_px(),
+             noise.max_infrared_closing_px(), &random, &mask);
   return mask;
 }
 

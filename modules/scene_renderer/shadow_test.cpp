@@ -31,8 +31,8 @@ TEST(ShadowTest, ProjectorToTheRightHidesTheWallLeftOfThePlate) {
   SceneNoise noise;
   noise.set_projector_x_m(0.052);  // shifts the plate by 10.4 px, the wall by 5.2 px
   noise.set_infrared_camera_x_m(0);
-  noise.set_min_shadow_closing_px(0);
-  noise.set_max_shadow_closing_px(0);
+  noise.set_min_projector_closing_px(0);
+  noise.set_max_projector_closing_px(0);
   EXPECT_EQ(Hidden(noise), (std::vector<size_t>{35, 36, 37, 38, 39}));
 }
 
@@ -40,8 +40,8 @@ TEST(ShadowTest, InfraredCameraToTheLeftHidesTheWallRightOfThePlate) {
   SceneNoise noise;
   noise.set_projector_x_m(0);
   noise.set_infrared_camera_x_m(-0.032);
-  noise.set_min_shadow_closing_px(0);
-  noise.set_max_shadow_closing_px(0);
+  noise.set_min_infrared_closing_px(0);
+  noise.set_max_infrared_closing_px(0);
   EXPECT_EQ(Hidden(noise), (std::vector<size_t>{70, 71, 72}));
 }
 
@@ -49,8 +49,8 @@ TEST(ShadowTest, ClosesTheEndOfAShadowThatIsAwayFromThePlate) {
   SceneNoise noise;
   noise.set_projector_x_m(0.052);
   noise.set_infrared_camera_x_m(0);
-  noise.set_min_shadow_closing_px(2);
-  noise.set_max_shadow_closing_px(2);
+  noise.set_min_projector_closing_px(2);
+  noise.set_max_projector_closing_px(2);
   EXPECT_EQ(Hidden(noise), (std::vector<size_t>{37, 38, 39}));
 }
 
