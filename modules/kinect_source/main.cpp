@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 
 #include "modules/codec/codec.h"
 #include "modules/kinect_source/kinect_source.h"
@@ -37,7 +39,7 @@ class KinectSourceModule {
     try {
       reader_ = std::make_unique<RecordingReader>(config);
     } catch (const std::invalid_argument& error) {
-      throw runtime::ConfigError(std::string("kinect_source: ") + error.what());
+      throw runtime::ConfigError(error.what());
     }
     source_ =
         std::make_unique<KinectSource>(config, bus_.lossless(), [this] { return reader_->Next(); });

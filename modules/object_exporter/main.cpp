@@ -1,6 +1,5 @@
 #include <memory>
 #include <stdexcept>
-#include <string>
 
 #include "modules/codec/codec.h"
 #include "modules/object_exporter/object_exporter.h"
@@ -31,7 +30,7 @@ class ObjectExporterModule {
     try {
       exporter_ = std::make_unique<ObjectExporter>(config);
     } catch (const std::runtime_error& error) {
-      throw runtime::ConfigError(std::string("object_exporter: ") + error.what());
+      throw runtime::ConfigError(error.what());
     }
   }
 
