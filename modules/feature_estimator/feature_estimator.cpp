@@ -32,8 +32,8 @@ FeatureCloud FeatureEstimator::Estimate(const Tabletop& tabletop) const {
       EstimateNormals(points, {normal_radius_m, dense_px}, config_.min_normal_neighbors());
   std::vector<float> kappa(points.x.size(), 0.0F), r_min(points.x.size(), 0.0F);
   if (is_paper) {
-    r_min = EstimateMinimumRadius(points, normals, feature_radius_m, config_.rsd_num_bins(),
-                                  config_.rsd_plane_radius_m());
+    r_min = EstimateMinimumRadius(
+        points, normals, {feature_radius_m, config_.rsd_num_bins(), config_.rsd_plane_radius_m()});
   } else {
     kappa = EstimateHorizontalCurvature(
         points, normals, tabletop.planes.front().plane.normal,
