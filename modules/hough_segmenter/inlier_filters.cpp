@@ -93,6 +93,37 @@ void KeepArcsAtOneHeight(const std::vector<SideCell>& cells, float max_gap_m, Ci
   }
 }
 
+void KeepOneRadius(const std::vector<SideCell>& cells, float max_step_m, CircleFit* fit) {
+  constexpr float kMinShare = 0.15f;  // of the points on either side of a step
+  std::vector<int> by_height = fit->inliers;
+  const auto height = [&](int i) { return cells[static_cast<size_t>(i)].z; };
+  std::sort(by_height.begin(), by_height.end(),
+            [&](int a, int b) { return std::pair(height(a), a) < std::pair(height(b), b); });
+  const auto sums = [&](int i) {
+    const SideCell& cell = cells[static_cast<size_t>(i)];
+    return Eigen::Vector2f(cell.weight, cell.weight * (cell.p - fit->model.c).norm());
+  };
+  Eigen::Vector2f total = Eigen::Vector2f::Zero();
+  for (int i : by_height) total += sums(i);
+  Eigen::Vector2f below = Eigen::Vector2f::Zero();
+  float largest_step = max_step_m;
+  float split_height = 0;
+  bool keep_below = false;
+  for (size_t k = 0; k + 1 < by_height.size(); ++k) {
+    below += sums(by_height[k]);
+    const Eigen::Vector2f above = total - below;
+    if (below.x() < kMinShare * total.x() || above.x() < kMinShare * total.x()) continue;
+    const float step = std::abs(below.y() / below.x() - above.y() / above.x());
+    if (step <= largest_step) continue;
+    largest_step = step;
+    split_height = height(by_height[k]);
+    keep_below = below.x() >= above.x();
+  }
+  if (largest_step <= max_step_m) return;
+  KeepIf(cells, &fit->inliers,
+         [&](const SideCell& cell) { return (cell.z <= split_height) == keep_below; });
+}
+
 void KeepFlat(const std::vector<SideCell>& cells, float max_curvature, LineFit* fit) {
   KeepIf(cells, &fit->inliers,
          [&](const SideCell& cell) { return cell.curvature <= max_curvature; });

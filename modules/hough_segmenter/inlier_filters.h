@@ -17,6 +17,11 @@ void KeepOneRun(const std::vector<SideCell>& cells, float max_gap_m, FeatureMode
 // dropped, of more than two arcs the two longest stay.
 void KeepArcsAtOneHeight(const std::vector<SideCell>& cells, float max_gap_m, CircleFit* fit);
 
+// Circle: a cylinder on a wider one has inliers at another distance from the axis above some
+// height. Where the mean distances below and above differ by more than max_step_m, the part with
+// more points stays.
+void KeepOneRadius(const std::vector<SideCell>& cells, float max_step_m, CircleFit* fit);
+
 // Paper mode: keeps inliers whose curvature is that of a flat (line) or round (circle) surface, and
 // for circles those whose minimum radius is within max_radius_difference_m of the circle's.
 void KeepFlat(const std::vector<SideCell>& cells, float max_curvature, LineFit* fit);

@@ -6,9 +6,10 @@
 namespace declutter {
 namespace {
 
-constexpr float kMaxDistance = 0.006f;  // [m] of a point from the surface it is measured with
-constexpr float kMargin = 0.006f;       // [m] around the extent found on cells
-constexpr float kMinCos = 0.7f;         // normals bend near outlines
+constexpr float kMaxDistance = 0.004f;   // [m] of a point from the surface it is measured with
+constexpr float kMargin = 0.006f;        // [m] around the extent found on cells
+constexpr float kHeightMargin = 0.014f;  // [m] half a cell more
+constexpr float kMinCos = 0.7f;          // normals bend near outlines
 
 // Value below which `fraction` of the values lie.
 float Quantile(std::vector<float>* values, double fraction) {
@@ -25,7 +26,7 @@ void Measure(const std::vector<TablePoint>& points, Face* face) {
     if (point.component != face->component || !point.is_side()) continue;
     const Eigen::Vector2f p = point.p_T.head<2>();
     const float s = line.tangent().dot(p);
-    if (std::abs(line.n.dot(p) - line.rho) > std::max(kMaxDistance, 3 * point.sigma) ||
+    if (std::abs(line.n.dot(p) - line.rho) > std::max(kMaxDistance, 2.5f * point.sigma) ||
         s < line.s_min - kMargin || s > line.s_max + kMargin ||
         line.n.dot(point.n_T.head<2>()) < kMinCos * point.n_T.head<2>().norm()) {
       continue;
@@ -46,8 +47,9 @@ void Measure(const std::vector<TablePoint>& points, Arc* arc) {
   for (const TablePoint& point : points) {
     if (point.component != arc->component || !point.is_side()) continue;
     const Eigen::Vector2f q = point.p_T.head<2>() - circle.c;
-    if (std::abs(q.norm() - circle.r) > std::max(kMaxDistance, 3 * point.sigma) ||
-        point.p_T.z() < circle.z_min - 4 * kMargin || point.p_T.z() > circle.z_max + 4 * kMargin ||
+    if (std::abs(q.norm() - circle.r) > std::max(kMaxDistance, 2.5f * point.sigma) ||
+        point.p_T.z() < circle.z_min - kHeightMargin ||
+        point.p_T.z() > circle.z_max + kHeightMargin ||
         q.dot(point.n_T.head<2>()) < kMinCos * q.norm() * point.n_T.head<2>().norm()) {
       continue;
     }

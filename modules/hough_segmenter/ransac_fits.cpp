@@ -9,10 +9,11 @@
 namespace declutter {
 namespace {
 
-constexpr float kBucketSide = 0.05f;     // [m] squares in which the partner of a sample is drawn
-constexpr size_t kMaxScoredCells = 400;  // cells that decide between samples
-constexpr float kMinBaseline = 0.008f;   // [m] of the two cells of a sample
-constexpr int kMaxDraws = 12;            // of a partner, before a sample is given up
+constexpr float kBucketSide = 0.05f;      // [m] squares in which the partner of a sample is drawn
+constexpr size_t kMaxScoredCells = 400;   // cells that decide between samples
+constexpr float kMinBaseline = 0.008f;    // [m] of the two cells of a sample
+constexpr int kMaxDraws = 12;             // of a partner, before a sample is given up
+constexpr float kMaxRadiusStep = 0.003f;  // [m] between the lower and upper part of a cylinder
 constexpr float kMinKappaTimesRadius = 0.3f;  // median over the inliers of a circle
 
 LineModel LineThrough(const SideCell& a, const SideCell& b) {
@@ -215,6 +216,7 @@ CircleFit SideFitter::Inliers(const CircleModel& circle, const std::vector<char>
               static_cast<float>(config_.max_radius_difference_m()), &fit);
   }
   KeepArcsAtOneHeight(cells_, static_cast<float>(config_.max_gap_m()), &fit);
+  KeepOneRadius(cells_, kMaxRadiusStep, &fit);
   fit.num_points = NumPoints(cells_, fit.inliers);
   return fit;
 }

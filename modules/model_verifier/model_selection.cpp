@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "modules/model_verifier/refinement.h"
+
 namespace declutter {
 namespace {
 
@@ -44,46 +46,99 @@ double Gain(const ModelVerifierConfig& config, const Candidate& candidate,
   return gain - penalty;
 }
 
+// True when the image speaks enough for a candidate for it to be considered at all.
+bool IsPlausible(const ModelVerifierConfig& config, const RayEvidence& evidence) {
+  const auto num_explained = static_cast<double>(evidence.explained.size());
+  return num_explained >= config.min_explained_px() &&
+         evidence.num_violating + evidence.num_contradicting <=
+             config.max_violating_share() * num_explained;
+}
+
+class Selection {
+ public:
+  Selection(const ModelVerifierConfig& config, const DepthImage& image, const NormalImage& normals,
+            const Plane& support)
+      : config_(config),
+        image_(image),
+        normals_(normals),
+        support_(support),
+        is_taken_(image.counts.size(), 0) {}
+
+  void Add(const Hypothesis& hypothesis) {
+    Candidate candidate{hypothesis, CastRays(hypothesis.solid, image_, normals_, support_)};
+    if (!IsPlausible(config_, candidate.evidence)) return;
+    candidate.gain = Gain(config_, candidate, is_taken_);
+    candidates_.push_back(std::move(candidate));
+  }
+
+  std::vector<Candidate> Run() {
+    std::vector<Candidate> selected;
+    while (!candidates_.empty()) {
+      const auto best =
+          std::max_element(candidates_.begin(), candidates_.end(),
+                           [](const Candidate& a, const Candidate& b) { return a.gain < b.gain; });
+      if (best->gain < config_.min_explained_px()) break;
+      if (RefineRivals(*best)) continue;
+      selected.push_back(std::move(*best));
+      candidates_.erase(best);
+      Take(selected.back());
+    }
+    return selected;
+  }
+
+ private:
+  // Refines the best candidate and those that could take its place; false when all were.
+  bool RefineRivals(const Candidate& best) {
+    constexpr double kMinGainOfRival = 0.7;  // of the best candidate's
+    const Solid space = best.hypothesis.solid;
+    const double min_gain = kMinGainOfRival * best.gain;
+    bool has_changed = false;
+    for (Candidate& candidate : candidates_) {
+      if (candidate.is_refined || candidate.gain < min_gain ||
+          !Intersect(candidate.hypothesis.solid, space, config_.max_shared_volume())) {
+        continue;
+      }
+      candidate.hypothesis.solid = Refine(candidate.hypothesis.solid, image_, normals_);
+      candidate.evidence = CastRays(candidate.hypothesis.solid, image_, normals_, support_);
+      candidate.gain =
+          IsPlausible(config_, candidate.evidence) ? Gain(config_, candidate, is_taken_) : 0.0;
+      candidate.is_refined = true;
+      has_changed = true;
+    }
+    return has_changed;
+  }
+
+  void Take(const Candidate& taken) {
+    for (const auto& pixel : taken.evidence.explained) {
+      is_taken_[static_cast<size_t>(pixel.pixel)] = 1;
+    }
+    const auto is_out = [&](const Candidate& c) {
+      return Intersect(c.hypothesis.solid, taken.hypothesis.solid, config_.max_shared_volume());
+    };
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), is_out),
+                      candidates_.end());
+    for (Candidate& candidate : candidates_) {
+      candidate.gain = Gain(config_, candidate, is_taken_);
+    }
+  }
+
+  const ModelVerifierConfig& config_;
+  const DepthImage& image_;
+  const NormalImage& normals_;
+  const Plane& support_;
+  std::vector<char> is_taken_;  // pixels that a selected solid explains
+  std::vector<Candidate> candidates_;
+};
+
 }  // namespace
 
 std::vector<Candidate> SelectModels(const ModelVerifierConfig& config,
                                     const std::vector<Hypothesis>& hypotheses,
                                     const DepthImage& image, const NormalImage& normals,
                                     const Plane& support) {
-  std::vector<Candidate> candidates;
-  for (const Hypothesis& hypothesis : hypotheses) {
-    Candidate candidate{hypothesis, CastRays(hypothesis.solid, image, normals, support), 0};
-    const auto num_explained = static_cast<double>(candidate.evidence.explained.size());
-    if (num_explained < config.min_explained_px() ||
-        candidate.evidence.num_violating + candidate.evidence.num_contradicting >
-            config.max_violating_share() * num_explained) {
-      continue;
-    }
-    candidates.push_back(std::move(candidate));
-  }
-  std::vector<char> is_taken(image.counts.size(), 0);
-  std::vector<Candidate> selected;
-  while (true) {
-    size_t best = candidates.size();
-    for (size_t i = 0; i < candidates.size(); ++i) {
-      candidates[i].gain = Gain(config, candidates[i], is_taken);
-      if (best == candidates.size() || candidates[i].gain > candidates[best].gain) best = i;
-    }
-    if (best == candidates.size() || candidates[best].gain < config.min_explained_px()) break;
-    selected.push_back(std::move(candidates[best]));
-    const Candidate& taken = selected.back();
-    for (const auto& pixel : taken.evidence.explained) {
-      is_taken[static_cast<size_t>(pixel.pixel)] = 1;
-    }
-    candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(best));
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
-                                    [&](const Candidate& c) {
-                                      return Intersect(c.hypothesis.solid, taken.hypothesis.solid,
-                                                       config.max_shared_volume());
-                                    }),
-                     candidates.end());
-  }
-  return selected;
+  Selection selection(config, image, normals, support);
+  for (const Hypothesis& hypothesis : hypotheses) selection.Add(hypothesis);
+  return selection.Run();
 }
 
 }  // namespace declutter

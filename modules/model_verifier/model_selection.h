@@ -12,6 +12,7 @@ namespace declutter {
 struct Candidate {
   Hypothesis hypothesis;
   RayEvidence evidence;
+  bool is_refined = false;
   double gain = 0;  // [px] explained by it alone when it was selected, less what speaks against it
 };
 

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "modules/model_verifier/model_selection.h"
-#include "modules/model_verifier/refinement.h"
 
 namespace declutter {
 namespace {
@@ -107,21 +106,20 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   for (const Candidate& candidate :
        SelectModels(config_, hypotheses.hypotheses, frame.image, normals, support)) {
     ObjectModel object;
-    object.solid = Refine(candidate.hypothesis.solid, frame.image, normals);
+    object.solid = candidate.hypothesis.solid;
     object.evidence = candidate.hypothesis.evidence;
     object.num_votes = candidate.hypothesis.num_votes;
     list.objects.push_back(object);
   }
   SettleOnSupports(support, &list.objects);
   std::vector<RayEvidence> evidence;
-  for (size_t i = 0; i < list.objects.size(); ++i) {
-    ObjectModel& object = list.objects[i];
+  for (ObjectModel& object : list.objects) {
     evidence.push_back(CastRays(object.solid, frame.image, normals, support));
-    object.id = static_cast<int32_t>(i + 1);
-    object.num_explained = static_cast<int32_t>(evidence[i].explained.size());
-    object.num_occluded = evidence[i].num_occluded;
-    object.num_violating = evidence[i].num_violating;
-    object.confidence = static_cast<float>(Confidence(evidence[i]));
+    object.num_explained = static_cast<int32_t>(evidence.back().explained.size());
+    object.num_occluded = evidence.back().num_occluded;
+    object.num_violating = evidence.back().num_violating;
+    object.confidence = static_cast<float>(Confidence(evidence.back()));
+    object.id = static_cast<int32_t>(evidence.size());
   }
   Label(evidence, &list);
   return list;

@@ -138,13 +138,17 @@ RayEvidence CastRays(const Solid& solid, const DepthImage& image, const NormalIm
       if (std::abs(distance) < tolerance && !is_on_support) {
         const auto n_C = caster.NormalAt(p_C, kEdgeMargin);
         const Eigen::Vector3f& measured = normals.At(u, v);
-        if (n_C && !measured.isZero() && measured.dot(n_C->cast<float>()) < kMinNormalCos) {
+        float normal_fit = 1;
+        if (n_C && !measured.isZero()) {
+          normal_fit = (measured.dot(n_C->cast<float>()) - kMinNormalCos) / (1 - kMinNormalCos);
+        }
+        if (normal_fit < 0) {
           ++evidence.num_contradicting;
           continue;
         }
         const double relative = distance / tolerance;
         evidence.explained.push_back({v * camera.width + u,
-                                      static_cast<float>(1 - relative * relative),
+                                      normal_fit * static_cast<float>(1 - relative * relative),
                                       static_cast<float>(distance)});
       } else if (z < passage->z_in) {
         ++evidence.num_occluded;

@@ -53,7 +53,7 @@ class SolidCaster {
 struct RayEvidence {
   struct ExplainedPixel {
     int pixel;       // v * width + u
-    float fit;       // 1 on the surface .. 0 at the tolerance
+    float fit;       // 1 on the surface with its normal .. 0 at the tolerances
     float distance;  // [m] signed, negative inside
   };
   std::vector<ExplainedPixel> explained;  // measured on the surface
