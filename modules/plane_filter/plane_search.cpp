@@ -138,6 +138,7 @@ PixelMask CoherentRegion(const InverseDepth& image, const InversePlane& plane, f
 
 std::vector<PlaneCandidate> FindPlanes(const InverseDepth& grid, const PlaneFilterConfig& config) {
   std::vector<PlaneCandidate> candidates;
+  if (grid.values.empty()) return candidates;
   std::mt19937_64 random(config.seed());
   const float band = static_cast<float>(config.inlier_sigmas() * config.inverse_depth_sigma());
   const int min_pixels = std::max(
