@@ -18,6 +18,8 @@ constexpr const char* kHelp = R"(launcher: runs a graph of modules
       Runs it until its sources have ended or a signal comes (a second one kills).
       --set MODULE.FIELD=VALUE   one parameter; strings without quotes
       --record LOG               write all messages to a new LCM log
+      --replay LOG               take the messages of the sources from a log, skipping no frame
+      --from MODULE              with --replay: run only MODULE and what is downstream of it
       --url URL                  LCM network (else LCM_DEFAULT_URL, else one of its own)
       --log_dir DIR              where the folder of this run is made (else logs of the project)
 
@@ -43,6 +45,8 @@ const std::vector<Option>& Options() {
   static const std::vector<Option> options = {
       {"--set", false, [](Value value, CommandLine* l) { l->assignments.push_back(value); }},
       {"--record", true, [](Value value, CommandLine* l) { SetOnce(value, &l->record); }},
+      {"--replay", true, [](Value value, CommandLine* l) { SetOnce(value, &l->replay); }},
+      {"--from", true, [](Value value, CommandLine* l) { SetOnce(value, &l->from); }},
       {"--url", true, [](Value value, CommandLine* l) { SetOnce(value, &l->url); }},
       {"--log_dir", true, [](Value value, CommandLine* l) { SetOnce(value, &l->logs); }},
   };
@@ -105,6 +109,7 @@ CommandLine ParseCommandLine(const std::vector<std::string>& arguments) {
       throw ConfigError("one graph at a time, not also " + arguments[i]);
     }
   }
+  if (!line.from.empty() && line.replay.empty()) throw ConfigError("--from: needs --replay");
   if (line.graph.empty()) throw ConfigError(arguments[0] + " needs a graph");
   return line;
 }

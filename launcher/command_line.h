@@ -14,6 +14,8 @@ struct CommandLine {
   std::string graph;                     // file
   std::vector<std::string> assignments;  // of --set, in order
   std::string record;                    // log to write; empty: none
+  std::string replay;                    // log to read in place of the sources; empty: none
+  std::string from;                      // first module of a replay; empty: not given
   std::string url;                       // empty: not given
   std::string logs;                      // folder; empty: not given
 };

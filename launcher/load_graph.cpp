@@ -34,7 +34,6 @@ class GraphLoader {
   bool FindPrograms();
   bool ReadConfigs();
   bool Assign(const std::vector<std::string>& assignments);
-  bool CheckComplete();
   bool CheckChannels();
   ResolvedGraph Resolve() const;
 
@@ -43,6 +42,7 @@ class GraphLoader {
   void FindProgram(int module);
   Config ReadConfig(int module);
   void MergeConfigFile(int module, google::protobuf::Message* config);
+  std::vector<Fault> FindMissing(int module) const;
   void AssignOne(const std::string& assignment);
   WiredModule Wire(int module);
   std::string PathFromGraph(const std::string& path) const { return folder_ / path; }
@@ -191,15 +191,13 @@ bool GraphLoader::Assign(const std::vector<std::string>& assignments) {
   return faults_->empty();
 }
 
-bool GraphLoader::CheckComplete() {
-  for (int i = 0; i < num_modules(); ++i) {
-    try {
-      runtime::CheckComplete(*configs_[static_cast<size_t>(i)]);
-    } catch (const runtime::ConfigError& error) {
-      Add(text_->Where(i, "config"), module(i).name() + "." + error.what());
-    }
+std::vector<Fault> GraphLoader::FindMissing(int i) const {
+  try {
+    runtime::CheckComplete(*configs_[static_cast<size_t>(i)]);
+    return {};
+  } catch (const runtime::ConfigError& error) {
+    return {{text_->Where(i, "config"), module(i).name() + "." + error.what()}};
   }
-  return faults_->empty();
 }
 
 WiredModule GraphLoader::Wire(int i) {
@@ -244,7 +242,7 @@ ResolvedGraph GraphLoader::Resolve() const {
     module->mutable_config()->PackFrom(*configs_[index]);
     std::string config_text;
     printer.PrintToString(*configs_[index], &config_text);
-    resolved.modules.push_back({*module, config_text, wiring_[index]});
+    resolved.modules.push_back({*module, config_text, wiring_[index], FindMissing(i)});
   }
   printer.PrintToString(graph, &resolved.text);
   return resolved;
@@ -253,12 +251,11 @@ ResolvedGraph GraphLoader::Resolve() const {
 }  // namespace
 
 std::optional<ResolvedGraph> LoadGraph(const std::string& path,
-                                       const std::vector<std::string>& assignments, bool needs_all,
+                                       const std::vector<std::string>& assignments,
                                        std::vector<Fault>* faults) {
   GraphLoader loader(path, faults);
   const bool is_good = loader.ReadFile() && loader.FindPrograms() && loader.ReadConfigs() &&
-                       loader.Assign(assignments) && (!needs_all || loader.CheckComplete()) &&
-                       loader.CheckChannels();
+                       loader.Assign(assignments) && loader.CheckChannels();
   if (!is_good) return std::nullopt;
   return loader.Resolve();
 }

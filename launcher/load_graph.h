@@ -12,11 +12,10 @@ namespace declutter::launcher {
 // Reads and checks a graph file: syntax, names, programs, parameters of programs that are not
 // linked here, channels. Each program is asked with --describe.
 //
-// assignments: `module.field=value`, on top of what the file says. needs_all: parameters that are
-// required must be set, as for a run. Nothing when there is a fault; all that were found are added
-// to faults.
+// assignments: `module.field=value`, on top of what the file says. Nothing when there is a fault;
+// all that were found are added to faults.
 std::optional<ResolvedGraph> LoadGraph(const std::string& path,
-                                       const std::vector<std::string>& assignments, bool needs_all,
+                                       const std::vector<std::string>& assignments,
                                        std::vector<Fault>* faults);
 
 }  // namespace declutter::launcher

@@ -4,13 +4,13 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "launcher/command_line.h"
 #include "launcher/find_program.h"
 #include "launcher/load_graph.h"
+#include "launcher/plan_replay.h"
 #include "launcher/run.h"
 
 namespace declutter::launcher {
@@ -19,23 +19,24 @@ namespace {
 constexpr int kFailure = 1;
 constexpr int kBadConfig = 2;
 
-int Check(const CommandLine& line) {
-  const bool is_run = line.verb == CommandLine::Verb::kRun;
-  std::vector<Fault> faults;
-  const auto graph = LoadGraph(line.graph, line.assignments, is_run, &faults);
+void Print(const std::vector<Fault>& faults) {
   for (const Fault& fault : faults) {
     std::cerr << (fault.where.empty() ? "" : fault.where + ": ") << fault.what << "\n";
   }
-  if (!graph) return kBadConfig;
-  if (!is_run) {
-    std::cout << graph->text;
-    return std::cout.flush() ? 0 : kFailure;
-  }
+}
+
+int Run(const CommandLine& line, ResolvedGraph graph) {
   const char* environment_url = std::getenv("LCM_DEFAULT_URL");
   RunOptions options{line.url, line.record, line.logs};
   if (options.url.empty() && environment_url != nullptr) options.url = environment_url;
   if (options.logs.empty()) options.logs = OwnFolder() + "/../../logs";
-  return RunGraph(*graph, options);
+  if (!line.replay.empty()) options.replay = PlanReplay(line.replay, line.from, &graph);
+  bool is_complete = true;
+  for (const ResolvedModule& module : graph.modules) {
+    Print(module.missing);
+    is_complete = is_complete && module.missing.empty();
+  }
+  return is_complete ? RunGraph(graph, options) : kBadConfig;
 }
 
 int Act(const std::vector<std::string>& arguments) {
@@ -48,7 +49,13 @@ int Act(const std::vector<std::string>& arguments) {
   if (std::filesystem::exists(std::filesystem::symlink_status(line.record, ignored))) {
     throw runtime::ConfigError("--record " + line.record + ": exists already");
   }
-  return Check(line);
+  std::vector<Fault> faults;
+  const auto graph = LoadGraph(line.graph, line.assignments, &faults);
+  Print(faults);
+  if (!graph) return kBadConfig;
+  if (line.verb == CommandLine::Verb::kRun) return Run(line, *graph);
+  std::cout << graph->text;
+  return std::cout.flush() ? 0 : kFailure;
 }
 
 }  // namespace

@@ -1,16 +1,21 @@
 #include "launcher/recorder.h"
 
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <stdexcept>
 #include <utility>
+
+#include "modules/runtime/event_log.h"
 
 namespace declutter::launcher {
 namespace {
 
+constexpr int kPriority = -10;
 constexpr double kMarkPeriod_s = 0.2;
 constexpr std::streamoff kTail = 1 << 20;  // [byte] of the log in which the mark is searched
 constexpr int8_t kStarting = 0;            // module_status_t::state
@@ -25,6 +30,11 @@ bool TailHolds(const std::string& path, const std::vector<uint8_t>& mark) {
   file.seekg(begin);
   file.read(reinterpret_cast<char*>(tail.data()), static_cast<std::streamsize>(tail.size()));
   return std::search(tail.begin(), tail.end(), mark.begin(), mark.end()) != tail.end();
+}
+
+// Status and LCM's own are sent at any time, also outside the run.
+bool IsCounted(const std::string& channel) {
+  return channel != kModuleStatus.name && channel != "LCM_SELF_TEST";
 }
 
 int64_t WallClock_us() {
@@ -44,6 +54,8 @@ Recorder::Recorder(std::vector<std::string> command, std::string log, std::strin
 void Recorder::Start() {
   child_ = std::make_unique<ChildProcess>(command_, stderr_path_);
   has_stderr_ = true;
+  // Late, it loses messages: it goes first where we may say so.
+  setpriority(PRIO_PROCESS, static_cast<id_t>(child_->pid()), kPriority);
 }
 
 void Recorder::Terminate() {
@@ -55,6 +67,10 @@ void Recorder::Terminate() {
 
 void Recorder::Kill() {
   if (child_) child_->Signal(SIGKILL);
+}
+
+void Recorder::OnMessage(const Message& message) {
+  if (is_ready_ && IsCounted(message.channel)) ++num_heard_;
 }
 
 void Recorder::OnTurn(double now_s) {
@@ -87,8 +103,22 @@ std::optional<Ending> Recorder::Reap() {
   auto ending = child_ ? child_->Reap() : std::nullopt;
   if (!ending) return ending;
   has_stderr_ = false;
-  if (ending->code == 0 && !is_complete_) return Ending{1, 0, "an incomplete log " + log_};
-  return ending;
+  return ending->code == 0 ? Judge() : ending;
+}
+
+Ending Recorder::Judge() const {
+  if (!is_complete_) return {1, 0, "an incomplete log " + log_};
+  int64_t num_recorded = 0;
+  try {
+    runtime::EventLogReader reader(log_);
+    while (const auto event = reader.Next()) num_recorded += IsCounted(event->channel) ? 1 : 0;
+  } catch (const std::runtime_error& error) {
+    return {1, 0, error.what()};
+  }
+  if (num_recorded >= num_heard_) return {};
+  return {1, 0,
+          "a log that lacks " + std::to_string(num_heard_ - num_recorded) + " of " +
+              std::to_string(num_heard_) + " messages"};
 }
 
 int Recorder::fd() const { return has_stderr_ ? child_->stderr_fd() : -1; }

@@ -9,9 +9,10 @@
 
 namespace declutter::launcher {
 
-// lcm-logger, recording every message of a run. It gives no sign of life or of loss, and ends with
-// 0 on a full disk: so a mark of ours must appear in the log before the run starts, and another,
-// sent after the last message of the run, must be its end.
+// lcm-logger, recording every message of a run. It gives no sign of life or of loss (its queue
+// holds 30 messages), and ends with 0 on a full disk. So a mark of ours must appear in the log
+// before the run starts, another, sent after the last message of the run, must be its end, and
+// between them there must be as many messages as we have heard.
 class Recorder : public Process {
  public:
   // command: lcm-logger with its arguments, writing log. wire is kept.
@@ -20,12 +21,14 @@ class Recorder : public Process {
   void Start() override;
   void Terminate() override;
   void Kill() override;
+  void OnMessage(const Message& message) override;
   void OnTurn(double now_s) override;
   bool is_ready() const override { return is_ready_; }
   std::optional<Ending> Reap() override;
   int fd() const override;
 
  private:
+  Ending Judge() const;
   void SendMark(double now_s);
 
   std::vector<std::string> command_;
@@ -36,6 +39,7 @@ class Recorder : public Process {
   Message mark_;
   double mark_s_ = 0.0;  // when it was sent last
   bool has_stderr_ = false;
+  int64_t num_heard_ = 0;  // messages of modules, status left out
   bool is_ready_ = false;
   bool is_ending_ = false;
   bool is_complete_ = false;

@@ -14,6 +14,7 @@ struct ResolvedModule {
   Module module;            // program an absolute path
   std::string config_text;  // its parameters as protobuf text, all layers merged
   WiredModule wiring;
+  std::vector<Fault> missing;  // parameters that a run needs and nothing sets
 };
 
 // A graph that was checked.

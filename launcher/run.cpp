@@ -17,7 +17,9 @@
 namespace declutter::launcher {
 namespace {
 
-constexpr const char* kLogger = "lcm-logger";  // no module's name: these have no dash
+// No names of modules: these have no dash.
+constexpr const char* kLogger = "lcm-logger";
+constexpr const char* kFeeder = "log-feeder";
 
 std::vector<std::string> ModuleCommand(const ResolvedModule& resolved, bool lossless,
                                        const RunFolder& folder) {
@@ -32,6 +34,16 @@ std::vector<std::string> ModuleCommand(const ResolvedModule& resolved, bool loss
   return command;
 }
 
+// As a pattern. What is recorded is heard, to be counted.
+std::string HeardChannels(const RunOptions& options) {
+  if (!options.record.empty()) return ".*";
+  std::string pattern = kModuleStatus.name;
+  if (options.replay) {
+    for (const std::string& channel : options.replay->awaited) pattern += "|" + channel;
+  }
+  return "(" + pattern + ")";
+}
+
 std::unique_ptr<Process> MakeRecorder(const RunOptions& options, const RunFolder& folder,
                                       Wire* wire) {
   const auto logger = FindProgram(kLogger);
@@ -44,7 +56,8 @@ std::unique_ptr<Process> MakeRecorder(const RunOptions& options, const RunFolder
 
 }  // namespace
 
-std::vector<Node> PlanNodes(const ResolvedGraph& graph, bool has_recorder) {
+std::vector<Node> PlanNodes(const ResolvedGraph& graph, const RunOptions& options) {
+  const bool has_recorder = !options.record.empty();
   std::vector<WiredModule> wiring;
   for (const ResolvedModule& resolved : graph.modules) wiring.push_back(resolved.wiring);
   std::vector<Node> nodes;
@@ -59,6 +72,11 @@ std::vector<Node> PlanNodes(const ResolvedGraph& graph, bool has_recorder) {
     if (has_recorder) node.downstream.push_back(kLogger);
     nodes.push_back(std::move(node));
   }
+  if (options.replay) {
+    Node feeder{kFeeder, {}, true};
+    for (const Node& node : nodes) feeder.downstream.push_back(node.name);
+    nodes.push_back(std::move(feeder));
+  }
   return nodes;
 }
 
@@ -70,7 +88,7 @@ int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
   const RunFolder folder(options.logs, graph);
   HoldSignals();
   Wire wire(options.url);
-  wire.Subscribe(kModuleStatus.name);
+  wire.Subscribe(HeardChannels(options));
 
   std::map<std::string, std::unique_ptr<Process>> processes;
   for (const ResolvedModule& resolved : graph.modules) {
@@ -78,9 +96,9 @@ int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
     processes[name] = std::make_unique<ModuleProcess>(
         name, ModuleCommand(resolved, graph.lossless, folder), folder.LogPath(name));
   }
-  const bool has_recorder = !options.record.empty();
-  if (has_recorder) processes[kLogger] = MakeRecorder(options, folder, &wire);
-  Supervisor supervisor(PlanNodes(graph, has_recorder), graph.lossless);
+  if (!options.record.empty()) processes[kLogger] = MakeRecorder(options, folder, &wire);
+  if (options.replay) processes[kFeeder] = std::make_unique<LogFeeder>(*options.replay, &wire);
+  Supervisor supervisor(PlanNodes(graph, options), graph.lossless);
   return Session(std::move(supervisor), std::move(processes), &wire).Run();
 }
 

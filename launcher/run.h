@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "launcher/log_feeder.h"
 #include "launcher/resolved_graph.h"
 #include "launcher/supervisor.h"
 
@@ -12,10 +14,12 @@ struct RunOptions {
   std::string url;     // of the network; empty: one that nobody else uses
   std::string record;  // log to write; empty: none
   std::string logs;    // folder of the runs' folders
+  std::optional<ReplayPlan> replay = {};
 };
 
-// The processes of a graph in the order of their starts, the recorder downstream of all.
-std::vector<Node> PlanNodes(const ResolvedGraph& graph, bool has_recorder);
+// The processes of a run: the modules, a recorder downstream of all of them, a log in place of
+// sources.
+std::vector<Node> PlanNodes(const ResolvedGraph& graph, const RunOptions& options);
 
 // Runs a graph to its end; returns the exit code. Throws std::runtime_error when there is no
 // network, no folder for logs or no recorder.

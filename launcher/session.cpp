@@ -13,7 +13,7 @@
 namespace declutter::launcher {
 namespace {
 
-constexpr int kTurn_ms = 50;
+constexpr int kTurn_ms = 10;
 
 double MonotonicSeconds() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();

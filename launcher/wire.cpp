@@ -18,8 +18,8 @@ Wire::Wire(const std::string& url) : lcm_(lcm_create(url.c_str())) {
 
 Wire::~Wire() { lcm_destroy(lcm_); }
 
-void Wire::Subscribe(const std::string& channel) {
-  lcm_subscription_t* subscription = lcm_subscribe(lcm_, channel.c_str(), OnMessage, this);
+void Wire::Subscribe(const std::string& pattern) {
+  lcm_subscription_t* subscription = lcm_subscribe(lcm_, pattern.c_str(), OnMessage, this);
   // LCM joins the network only now.
   if (subscription == nullptr || fd() < 0) throw std::runtime_error("the network cannot be joined");
   lcm_subscription_set_queue_capacity(subscription, kQueueCapacity);

@@ -27,7 +27,8 @@ class Wire {
   Wire& operator=(const Wire&) = delete;
 
   // Throws std::runtime_error when the network does not work.
-  void Subscribe(const std::string& channel);
+  // pattern: a regular expression, of all channels that are to be heard; to be called once.
+  void Subscribe(const std::string& pattern);
 
   // Readable when something has arrived.
   int fd() const { return lcm_get_fileno(lcm_); }

@@ -145,6 +145,33 @@ TEST_F(RunTest, RecordsEveryMessage) {
   EXPECT_EQ(counts.at("OBJECTS"), 50);
 }
 
+TEST_F(RunTest, ReplaysALogWithoutItsSourceAndSkipsNoFrame) {
+  const std::string log = folder_.Path("run.lcm");
+  const std::string graph = FakeGraph(folder_, SourceConfig("num_frames: 50"), "");
+  RunLauncher({"run", graph, "--record", log}, folder_);
+  const std::string again = folder_.Path("again.lcm");
+  const Outcome outcome = RunLauncher({"run", graph, "--replay", log, "--record", again}, folder_);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(CountEvents(again)["DEPTH_FRAME"], 50);
+  EXPECT_EQ(CountEvents(again)["OBJECTS"], 50);
+  EXPECT_THAT(ReadFile(folder_.Path("logs/latest/source.log")), IsEmpty());
+}
+
+TEST_F(RunTest, RefusesToReplayFromAModuleThatTheGraphDoesNotHave) {
+  const std::string graph = FakeGraph(folder_, "", "");
+  const Outcome outcome =
+      RunLauncher({"run", graph, "--replay", "log", "--from", "fliter"}, folder_);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("no such module; did you mean 'filter'?"));
+}
+
+TEST_F(RunTest, FailsWhenTheLogToReplayCannotBeRead) {
+  const std::string graph = FakeGraph(folder_, "", "");
+  const Outcome outcome = RunLauncher({"run", graph, "--replay", folder_.Path("none")}, folder_);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr(folder_.Path("none")));
+}
+
 TEST_F(RunTest, RefusesToRecordOverAFile) {
   const std::string log = folder_.Write("run.lcm", "precious");
   const Outcome outcome =

@@ -1,0 +1,79 @@
+#include "launcher/plan_replay.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "lcmtypes/channels.h"
+#include "modules/runtime/config_error.h"
+#include "modules/runtime/suggestion.h"
+
+namespace declutter::launcher {
+namespace {
+
+std::vector<WiredModule> Wiring(const ResolvedGraph& graph) {
+  std::vector<WiredModule> wiring;
+  for (const ResolvedModule& resolved : graph.modules) wiring.push_back(resolved.wiring);
+  return wiring;
+}
+
+size_t FindModule(const std::vector<WiredModule>& wiring, const std::string& name) {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < wiring.size(); ++i) {
+    if (wiring[i].name == name) return i;
+    names.push_back(wiring[i].name);
+  }
+  throw runtime::ConfigError("--from " + name + ": no such module" +
+                             runtime::Suggestion(name, names));
+}
+
+void AddWithDownstream(const std::vector<WiredModule>& wiring, size_t index,
+                       std::set<size_t>* kept) {
+  if (!kept->insert(index).second) return;
+  for (const size_t next : Downstream(wiring, index)) AddWithDownstream(wiring, next, kept);
+}
+
+std::set<size_t> Select(const std::vector<WiredModule>& wiring, const std::string& from) {
+  std::set<size_t> kept;
+  if (!from.empty()) {
+    AddWithDownstream(wiring, FindModule(wiring, from), &kept);
+    return kept;
+  }
+  for (size_t i = 0; i < wiring.size(); ++i) {
+    if (!IsSource(wiring[i])) kept.insert(i);
+  }
+  return kept;
+}
+
+}  // namespace
+
+ReplayPlan PlanReplay(const std::string& log, const std::string& from, ResolvedGraph* graph) {
+  std::vector<ResolvedModule> kept;
+  for (const size_t index : Select(Wiring(*graph), from)) {
+    kept.push_back(std::move(graph->modules[index]));
+  }
+  graph->modules = std::move(kept);
+  graph->lossless = true;
+
+  ReplayPlan plan{log, {}, {}};
+  std::set<std::string> objects;
+  for (const ResolvedModule& resolved : graph->modules) {
+    for (const Port& input : resolved.wiring.inputs) plan.fed.insert(input.channel);
+    for (const Port& output : resolved.wiring.outputs) {
+      plan.awaited.insert(output.channel);
+      if (output.type == object_list_t::getTypeName()) objects.insert(output.channel);
+    }
+  }
+  plan.fed.erase(kModuleStatus.name);
+  plan.awaited.erase(kModuleStatus.name);
+  for (const std::string& channel : plan.awaited) plan.fed.erase(channel);
+  // Objects are a frame's last result: they tell of all others.
+  if (!objects.empty()) plan.awaited = objects;
+  // Who publishes nothing tells in its status, if only once a second.
+  if (plan.awaited.empty()) plan.awaited.insert(kModuleStatus.name);
+  if (plan.fed.empty()) throw runtime::ConfigError("--replay: nothing is needed from the log");
+  return plan;
+}
+
+}  // namespace declutter::launcher
