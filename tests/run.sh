@@ -7,7 +7,10 @@ cd "$(dirname "$0")/.."
 # Formatting differs between versions of clang-format: only the one of Debian 12 decides.
 if clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
   find lcmtypes launcher modules tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
-    xargs -0 clang-format --dry-run -Werror
+    xargs -0 clang-format --dry-run -Werror || {
+    echo "run.sh: not formatted: run clang-format -i on the files above" >&2
+    exit 1
+  }
 else
   echo "run.sh: no clang-format 14, formatting is not checked" >&2
 fi

@@ -38,7 +38,7 @@ json SummaryJson(const Summary& summary) {
   json result{{"total", GroupJson(summary.total)}, {"groups", json::object()}};
   for (const auto& [name, group] : summary.groups) result["groups"][name] = GroupJson(group);
   result["without_result"] = summary.without_result;
-  result["median_iou"] = summary.median_iou;
+  result["median_iou"] = summary.median_iou ? json(*summary.median_iou) : json();
   result["exact"] = summary.num_exact;
   result["within_20_mm"] = summary.num_within_20_mm;
   result["by_distance"] = BinsJson(summary.by_distance);

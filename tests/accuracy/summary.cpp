@@ -119,7 +119,7 @@ class Summarizer {
       summary_.total.num_neutral += group.num_neutral;
       for (size_t i = 0; i < 2; ++i) summary_.total.shapes[i] += group.shapes[i];
     }
-    summary_.median_iou = SpreadOf(ious_).median;
+    if (!ious_.empty()) summary_.median_iou = SpreadOf(ious_).median;
     std::stable_sort(summary_.errors.begin(), summary_.errors.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     return summary_;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,7 +54,7 @@ struct Summary {
   GroupCount total;
   std::vector<std::string> without_result;  // frames
   ErrorTable errors;                        // of right models
-  double median_iou = 0;                    // of right models, where labelled
+  std::optional<double> median_iou;         // of right models, when any is labelled
   std::vector<RecallBin> by_distance;
   std::vector<RecallBin> by_visible_fraction;
   int num_exact = 0;         // core objects of exactly known pose and size

@@ -51,7 +51,7 @@ TEST(Summarize, CountsByGroupAndShape) {
   EXPECT_EQ(group.shapes[1].num_false, 1);
   EXPECT_DOUBLE_EQ(group.shapes[1].Precision(), 0.0);
   EXPECT_EQ(summary.total.shapes[0].num_core, 2);
-  EXPECT_DOUBLE_EQ(summary.median_iou, 0.9);
+  EXPECT_DOUBLE_EQ(summary.median_iou.value(), 0.9);
 }
 
 TEST(Summarize, ComparesExtentsOfBoxesLongestFirst) {

@@ -163,7 +163,7 @@ void WriteTotals(const Summary& summary, std::ostream& out) {
   both += summary.total.shapes[1];
   out << Format(
       "%d frames, %d without result, %d of %d core objects found, %d false models, "
-      "%d neutral; median IoU %.3f\n",
+      "%d neutral\n",
       summary.total.num_frames, static_cast<int>(summary.without_result.size()), both.num_found,
       both.num_core, both.num_false, summary.total.num_neutral, summary.median_iou);
   if (summary.num_exact > 0) {
