@@ -165,7 +165,10 @@ void WriteTotals(const Summary& summary, std::ostream& out) {
       "%d frames, %d without result, %d of %d core objects found, %d false models, "
       "%d neutral\n",
       summary.total.num_frames, static_cast<int>(summary.without_result.size()), both.num_found,
-      both.num_core, both.num_false, summary.total.num_neutral, summary.median_iou);
+      both.num_core, both.num_false, summary.total.num_neutral);
+  if (summary.median_iou) {
+    out << Format("median IoU of right models %.3f\n", *summary.median_iou);
+  }
   if (summary.num_exact > 0) {
     out << Format("right shape, centre and every dimension within 20 mm: %d of %d\n",
                   summary.num_within_20_mm, summary.num_exact);
