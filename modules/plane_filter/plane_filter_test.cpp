@@ -96,6 +96,17 @@ TEST(PlaneFilterTest, PrefersASmallTableToTheFloorAndTheWallsAroundIt) {
   EXPECT_NEAR(tabletop.planes[1].plane.d - tabletop.planes[0].plane.d, 0.7, 0.02);
 }
 
+TEST(PlaneFilterTest, PrefersALowTableToALargerFloorWithAWallOnIt) {
+  const RenderedScene scene = RenderText(
+      "camera { height_m: 0.67 pitch_rad: 0.67 } table { size_x_m: 1 size_y_m: 0.63 y_m: 0.86 } "
+      "room { floor_depth_m: 0.45 wall { distance_m: 1.09 heading_rad: 1.4 } } "
+      "object { box { size_x_m: 0.12 size_y_m: 0.12 size_z_m: 0.12 } y_m: 0.8 }");
+  const Tabletop tabletop = Filter(scene.depth);
+  ExpectMainSupport(tabletop, scene.table);
+  EXPECT_GT(PartKept(tabletop, scene, kFirstObject, kLastLabel), 0.97);
+  EXPECT_LT(PartKept(tabletop, scene, 0, kTableLabel), 0.01);
+}
+
 TEST(PlaneFilterTest, DropsAWallAtTheBorderOfTheTable) {
   const RenderedScene scene =
       RenderText(std::string(kBoxAndCan) + "room { wall { distance_m: 1.31 } }");

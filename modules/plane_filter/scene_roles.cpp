@@ -32,6 +32,9 @@ constexpr double kBehind = 0.03;
 
 constexpr double kMinWallAngle = 0.8;  // [rad] to the main support
 
+// Planes up to this angle are both level: they may be distorted differently [rad].
+constexpr double kMaxLevelAngle = 0.18;
+
 struct Support {
   Plane plane;        // in C
   Prism prism;        // over its hull
@@ -93,22 +96,34 @@ double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 // Pixels that cannot be the load of a plane: those of level planes, which may be supports
-// themselves, and those of planes that stand on no other, such as walls.
+// themselves, and those of planes that stand on no other, or are a wall to it.
 PixelMask NotLoad(const InverseDepth& grid, const std::vector<PlaneCandidate>& candidates,
                   const std::vector<Support>& supports, const PlaneFilterConfig& config) {
   PixelMask excluded(grid.values.size());
   for (size_t j = 0; j < candidates.size(); ++j) {
     bool load = false;
     for (size_t k = 0; k < supports.size() && !load; ++k) {
-      if (k == j) continue;
-      const double angle = Angle(supports[k].plane.normal, supports[j].plane.normal);
-      load = angle > 3 * config.max_parallel_angle_rad() &&
-             StandsOn(grid, candidates[j].region, supports[k], config);
+      load = k != j && Angle(supports[k].plane.normal, supports[j].plane.normal) > kMaxLevelAngle &&
+             StandsOn(grid, candidates[j].region, supports[k], config) &&
+             !IsWall(grid, candidates[j], supports[k].plane, candidates[k].region);
     }
     if (load) continue;
     for (size_t i = 0; i < excluded.size(); ++i) excluded[i] |= candidates[j].region[i];
   }
   return excluded;
+}
+
+// Whether another sizeable level plane is as far above plane k as a table above the floor.
+bool IsFloor(const std::vector<PlaneCandidate>& candidates, const std::vector<Support>& supports,
+             size_t k, double min_pixels, const PlaneFilterConfig& config) {
+  for (size_t j = 0; j < supports.size(); ++j) {
+    if (candidates[j].num_pixels >= min_pixels &&
+        supports[k].plane.d - supports[j].plane.d > config.min_table_height_m() &&
+        Angle(supports[k].plane.normal, supports[j].plane.normal) < kMaxLevelAngle) {
+      return true;
+    }
+  }
+  return false;
 }
 
 // Adds every pixel to its own plane, or to the load of the plane that it stands on: the highest
@@ -140,11 +155,13 @@ void Weigh(const InverseDepth& grid, const std::vector<PlaneCandidate>& candidat
   }
 }
 
-double Score(const InverseDepth& grid, const Support& support, const PlaneFilterConfig& config) {
+double Score(const InverseDepth& grid, const Support& support, bool is_floor,
+             const PlaneFilterConfig& config) {
   const double bare_load = kBareLoad * static_cast<double>(grid.values.size());
   const double tilt = Angle(support.plane.normal, -Eigen::Vector3d::UnitY());
   const double level = tilt <= config.max_tilt_rad() ? 1 : config.wall_weight();
-  return level * std::sqrt(support.pixels * (support.load + bare_load));
+  const double high = is_floor ? config.floor_weight() : 1;
+  return level * high * std::sqrt(support.pixels * (support.load + bare_load));
 }
 
 }  // namespace
@@ -160,12 +177,17 @@ SceneRoles AssignRoles(const InverseDepth& grid, const std::vector<PlaneCandidat
   }
   Weigh(grid, candidates, NotLoad(grid, candidates, supports, config), config, &supports);
 
+  const double min_pixels = kMinFurtherSupport * static_cast<double>(grid.values.size());
   size_t main = 0;
-  for (size_t k = 1; k < supports.size(); ++k) {
-    if (Score(grid, supports[k], config) > Score(grid, supports[main], config)) main = k;
+  double best_score = -1;
+  for (size_t k = 0; k < supports.size(); ++k) {
+    const bool is_floor = IsFloor(candidates, supports, k, min_pixels, config);
+    const double score = Score(grid, supports[k], is_floor, config);
+    if (score <= best_score) continue;
+    best_score = score;
+    main = k;
   }
   roles.supports.push_back(main);
-  const double min_pixels = kMinFurtherSupport * static_cast<double>(grid.values.size());
   for (size_t k = 0; k < supports.size(); ++k) {
     if (k == main) continue;
     const double angle = Angle(supports[k].plane.normal, supports[main].plane.normal);
