@@ -1,0 +1,105 @@
+#include "modules/hough_segmenter/hough_segmenter.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "modules/feature_estimator/feature_estimator.h"
+#include "modules/plane_filter/plane_filter.h"
+#include "modules/scene_renderer/scene_renderer.h"
+#include "modules/scene_renderer/scene_text.h"
+
+namespace declutter {
+namespace {
+
+RenderedScene RenderText(const std::string& text) { return Render(ParseScene(text, "scene"), 1); }
+
+HypothesisList Segment(const RenderedScene& scene, const std::string& mode) {
+  DepthFrame frame;
+  frame.header.utime = 33333;
+  frame.header.frame = "scene";
+  frame.image = scene.depth;
+  FeatureEstimatorConfig features;
+  features.set_mode(mode);
+  const Tabletop tabletop = PlaneFilter(PlaneFilterConfig()).Filter(frame);
+  return HoughSegmenter(HoughSegmenterConfig())
+      .Segment(tabletop, FeatureEstimator(features).Estimate(tabletop));
+}
+
+// [m] largest difference of centre and sizes of the hypothesis that is most like the true object.
+double SmallestError(const HypothesisList& list, const Solid& truth) {
+  double smallest = 1;
+  for (const Hypothesis& hypothesis : list.hypotheses) {
+    const Solid& solid = hypothesis.solid;
+    if (solid.shape != truth.shape) continue;
+    Eigen::Vector3d size = solid.size;
+    Eigen::Vector3d true_size = truth.size;
+    std::sort(size.data(), size.data() + 2);
+    std::sort(true_size.data(), true_size.data() + 2);
+    smallest = std::min(
+        smallest,
+        std::max((size - true_size).cwiseAbs().maxCoeff(),
+                 (solid.X_CO.translation() - truth.X_CO.translation()).cwiseAbs().maxCoeff()));
+  }
+  return smallest;
+}
+
+class HoughSegmenterInMode : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Modes, HoughSegmenterInMode, testing::Values("default", "paper"));
+
+TEST_P(HoughSegmenterInMode, ProposesACylinderNearTheTruth) {
+  const RenderedScene scene =
+      RenderText("object { cylinder { radius_m: 0.04 height_m: 0.15 } x_m: 0.05 y_m: 0.6 }");
+  const HypothesisList list = Segment(scene, GetParam());
+  EXPECT_EQ(list.mode == FeatureMode::kPaper, std::string(GetParam()) == "paper");
+  EXPECT_LT(SmallestError(list, scene.objects[0].solid), 0.010);
+}
+
+TEST_P(HoughSegmenterInMode, ProposesABoxNearTheTruth) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.18 size_y_m: 0.08 size_z_m: 0.13 } y_m: 0.65 yaw_rad: 0.4 }");
+  EXPECT_LT(SmallestError(Segment(scene, GetParam()), scene.objects[0].solid), 0.012);
+}
+
+TEST(HoughSegmenter, ProposesBothOfTwoTouchingBoxes) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.12 size_y_m: 0.08 size_z_m: 0.18 } x_m: -0.06 y_m: 0.65 }"
+      "object { box { size_x_m: 0.10 size_y_m: 0.07 size_z_m: 0.10 } x_m: 0.05 y_m: 0.69 }");
+  const HypothesisList list = Segment(scene, "default");
+  EXPECT_LT(SmallestError(list, scene.objects[0].solid), 0.012);
+  EXPECT_LT(SmallestError(list, scene.objects[1].solid), 0.012);
+}
+
+TEST(HoughSegmenter, LeavesOpenHowFarAHiddenBottomReaches) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.2 size_y_m: 0.2 size_z_m: 0.06 } y_m: 0.65 }"
+      "object { cylinder { radius_m: 0.04 height_m: 0.1 } y_m: 0.65 on: 0 }");
+  bool has_open_cylinder = false;
+  for (const Hypothesis& hypothesis : Segment(scene, "default").hypotheses) {
+    has_open_cylinder |= hypothesis.solid.shape == Shape::kCylinder &&
+                         hypothesis.evidence[2] == Evidence::kAssumed &&
+                         std::abs(hypothesis.solid.radius() - 0.04) < 0.004;
+  }
+  EXPECT_TRUE(has_open_cylinder);
+}
+
+TEST(HoughSegmenter, GivesTheSameListForTheSameInput) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.18 size_y_m: 0.08 size_z_m: 0.13 } y_m: 0.65 yaw_rad: 0.4 }");
+  const HypothesisList a = Segment(scene, "default");
+  const HypothesisList b = Segment(scene, "default");
+  ASSERT_EQ(a.hypotheses.size(), b.hypotheses.size());
+  for (size_t i = 0; i < a.hypotheses.size(); ++i) {
+    EXPECT_EQ(a.hypotheses[i].solid.size, b.hypotheses[i].solid.size);
+    EXPECT_EQ(a.hypotheses[i].num_votes, b.hypotheses[i].num_votes);
+  }
+}
+
+TEST(HoughSegmenter, ProposesNothingOnAnEmptyTableOrInAnEmptyFrame) {
+  EXPECT_THAT(Segment(RenderText(""), "default").hypotheses, testing::IsEmpty());
+  const HypothesisList list =
+      HoughSegmenter(HoughSegmenterConfig()).Segment(Tabletop(), FeatureCloud());
+  EXPECT_THAT(list.hypotheses, testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace declutter

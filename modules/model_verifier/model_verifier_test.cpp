@@ -1,0 +1,147 @@
+#include "modules/model_verifier/model_verifier.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "modules/model_verifier/refinement.h"
+#include "modules/scene_renderer/scene_renderer.h"
+#include "modules/scene_renderer/scene_text.h"
+
+namespace declutter {
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+
+
+Hypothesis Proposal(const Solid& solid) {
+  Hypothesis hypothesis;
+  hypothesis.solid = solid;
+  return hypothesis;
+}
+
+// The solid, moved and resized in its own frame.
+Solid Changed(Solid solid, const Eigen::Vector3d& shift_O, const Eigen::Vector3d& growth) {
+  solid.X_CO.translation() += solid.X_CO.linear() * shift_O;
+  solid.size += growth;
+  return solid;
+}
+
+RenderedScene RenderText(const std::string& text) { return Render(ParseScene(text, "scene"), 1); }
+
+ObjectList Verify(const RenderedScene& scene, const std::vector<Hypothesis>& hypotheses) {
+  DepthFrame frame;
+  frame.header.utime = 33333;
+  frame.header.frame = "scene";
+  frame.image = scene.depth;
+  HypothesisList list;
+  list.header = frame.header;
+  list.planes = {scene.table};
+  list.hypotheses = hypotheses;
+  return ModelVerifier(ModelVerifierConfig()).Verify(frame, list);
+}
+
+constexpr char kBox[] =
+    "object { box { size_x_m: 0.18 size_y_m: 0.08 size_z_m: 0.13 } y_m: 0.65 yaw_rad: 0.4 }";
+
+TEST(ModelVerifier, AcceptsATrueBoxAndLabelsItsPixels) {
+  const RenderedScene scene = RenderText(kBox);
+  const ObjectList list = Verify(scene, {Proposal(scene.objects[0].solid)});
+  ASSERT_THAT(list.objects, SizeIs(1));
+  EXPECT_GT(list.objects[0].confidence, 0.9);
+  int num_both = 0;
+  int num_either = 0;
+  for (size_t i = 0; i < list.labels.size(); ++i) {
+    const bool is_true = scene.labels[i] == scene.objects[0].label;
+    num_both += is_true && list.labels[i] == 1;
+    num_either += is_true || list.labels[i] == 1;
+  }
+  EXPECT_GT(num_both, 0.9 * num_either);
+}
+
+TEST(ModelVerifier, RejectsWhatFreeSpaceContradicts) {
+  const RenderedScene scene = RenderText(kBox);
+  const Solid floating = Changed(scene.objects[0].solid, {0.3, 0, 0}, {0, 0, 0});
+  EXPECT_THAT(Verify(scene, {Proposal(floating)}).objects, IsEmpty());
+}
+
+TEST(ModelVerifier, PrefersTheShapeThatFits) {
+  const RenderedScene scene =
+      RenderText("object { cylinder { radius_m: 0.04 height_m: 0.15 } x_m: 0.05 y_m: 0.6 }");
+  Solid box = scene.objects[0].solid;
+  box.shape = Shape::kBox;
+  const ObjectList list = Verify(scene, {Proposal(box), Proposal(scene.objects[0].solid)});
+  ASSERT_THAT(list.objects, SizeIs(1));
+  EXPECT_EQ(list.objects[0].solid.shape, Shape::kCylinder);
+}
+
+TEST(ModelVerifier, SetsAStackOnEachOther) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.2 size_y_m: 0.2 size_z_m: 0.06 } y_m: 0.65 }"
+      "object { cylinder { radius_m: 0.04 height_m: 0.1 } y_m: 0.65 on: 0 }");
+  // Of the can only the upper part was seen.
+  Hypothesis can = Proposal(Changed(scene.objects[1].solid, {0, 0, 0.01}, {0, 0, -0.02}));
+  can.evidence[2] = Evidence::kAssumed;
+  const ObjectList list = Verify(scene, {can, Proposal(scene.objects[0].solid)});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  const ObjectModel& upper = list.objects[1];
+  EXPECT_EQ(upper.solid.shape, Shape::kCylinder);
+  EXPECT_EQ(upper.supported_by, list.objects[0].id);
+  EXPECT_NEAR(upper.solid.height(), 0.1, 0.003);
+}
+
+TEST(ModelVerifier, ExtendsAHiddenBottomToTheTable) {
+  const RenderedScene scene = RenderText(kBox);
+  Hypothesis upper = Proposal(Changed(scene.objects[0].solid, {0, 0, 0.03}, {0, 0, -0.06}));
+  upper.evidence[2] = Evidence::kAssumed;
+  const ObjectList list = Verify(scene, {upper});
+  ASSERT_THAT(list.objects, SizeIs(1));
+  EXPECT_NEAR(list.objects[0].solid.height(), 0.13, 0.003);
+  EXPECT_EQ(list.objects[0].supported_by, 0);
+}
+
+TEST(ModelVerifier, GivesAnEmptyListForAnEmptyFrame) {
+  DepthFrame frame;
+  frame.header.error = "no image";
+  const ObjectList list = ModelVerifier(ModelVerifierConfig()).Verify(frame, HypothesisList());
+  EXPECT_THAT(list.objects, IsEmpty());
+  EXPECT_THAT(list.labels, IsEmpty());
+  EXPECT_EQ(list.header.error, "no image");
+}
+
+TEST(Refine, BringsAnInaccurateBoxToTheTruth) {
+  const RenderedScene scene = RenderText(std::string(kBox) + "noise { model: \"none\" }");
+  const Solid truth = scene.objects[0].solid;
+  Solid start = Changed(truth, {0.002, -0.002, 0.001}, {-0.008, 0.003, -0.002});
+  start.X_CO = start.X_CO * Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitZ());
+  Solid found = start;
+  for (int i = 0; i < 2; ++i) found = Refine(found, scene.depth, NormalImage(scene.depth));
+  EXPECT_NEAR(found.size.x(), truth.size.x(), 0.002);
+  EXPECT_NEAR(found.size.y(), truth.size.y(), 0.002);
+  EXPECT_LT((found.X_CO.translation() - truth.X_CO.translation()).norm(), 0.003);
+  EXPECT_GT(found.X_CO.linear().col(0).dot(truth.X_CO.linear().col(0)), std::cos(0.005));
+}
+
+TEST(Refine, BringsAnInaccurateCylinderToTheTruth) {
+  const RenderedScene scene = RenderText(
+      "object { cylinder { radius_m: 0.04 height_m: 0.15 } x_m: 0.05 y_m: 0.6 }"
+      "noise { model: \"none\" }");
+  const Solid truth = scene.objects[0].solid;
+  const Solid start = Changed(truth, {0.002, 0.001, 0}, {0.004, 0.004, 0});
+  const Solid found = Refine(start, scene.depth, NormalImage(scene.depth));
+  EXPECT_NEAR(found.radius(), 0.04, 0.0003);
+  EXPECT_LT((found.X_CO.translation() - truth.X_CO.translation()).norm(), 0.0005);
+}
+
+TEST(Refine, LeavesASolidWithoutPointsAlone) {
+  const RenderedScene scene = RenderText("");
+  Solid solid;
+  solid.size = Eigen::Vector3d(0.1, 0.1, 0.1);
+  solid.X_CO.translation() = Eigen::Vector3d(0, 0, 0.3);
+  const Solid found = Refine(solid, scene.depth, NormalImage(scene.depth));
+  EXPECT_EQ(found.size, solid.size);
+  EXPECT_TRUE(found.X_CO.isApprox(solid.X_CO));
+}
+
+}  // namespace
+}  // namespace declutter

@@ -1,0 +1,118 @@
+#include "modules/model_verifier/ray_casting.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace declutter {
+namespace {
+
+// A box or upright cylinder whose z axis looks back at the camera, centred on its optical axis.
+Solid FacingSolid(Shape shape, double z, const Eigen::Vector3d& size) {
+  Solid solid;
+  solid.shape = shape;
+  solid.X_CO.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  solid.X_CO.translation() = Eigen::Vector3d(0, 0, z);
+  solid.size = size;
+  return solid;
+}
+
+// An image of a flat wall at one depth [mm].
+DepthImage Wall(int depth_mm) {
+  DepthImage image;
+  image.camera = {64, 48, 60, 60, 31.5, 23.5};
+  image.counts.assign(64 * 48, static_cast<uint16_t>(depth_mm));
+  return image;
+}
+
+// A support plane far behind everything.
+Plane FarPlane() { return {-Eigen::Vector3d::UnitZ(), 5.0}; }
+
+TEST(SolidCaster, MeetsABoxWhereItsFacesAre) {
+  const SolidCaster caster(FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1}));
+  const auto passage = caster.Cast({0, 0, 1});
+  ASSERT_TRUE(passage);
+  EXPECT_NEAR(passage->z_in, 0.95, 1e-12);
+  EXPECT_NEAR(passage->z_out, 1.05, 1e-12);
+  EXPECT_TRUE(passage->through_top);
+  EXPECT_FALSE(caster.Cast({0.2, 0, 1}));
+}
+
+TEST(SolidCaster, MeetsTheSideOfACylinder) {
+  Solid solid;
+  solid.shape = Shape::kCylinder;
+  solid.X_CO.linear() = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  solid.X_CO.translation() = Eigen::Vector3d(0, 0, 1);
+  solid.size = Eigen::Vector3d(0.1, 0.1, 0.3);
+  const auto passage = SolidCaster(solid).Cast({0, 0, 1});
+  ASSERT_TRUE(passage);
+  EXPECT_NEAR(passage->z_in, 0.95, 1e-12);
+  EXPECT_NEAR(passage->z_out, 1.05, 1e-12);
+  EXPECT_FALSE(passage->through_top);
+}
+
+TEST(SolidCaster, KnowsTheDistanceToItsSurface) {
+  const SolidCaster box(FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1}));
+  EXPECT_NEAR(box.SignedDistance({0, 0, 1}), -0.05, 1e-12);
+  EXPECT_NEAR(box.SignedDistance({0, 0, 0.9}), 0.05, 1e-12);
+  EXPECT_NEAR(box.SignedDistance({0.13, 0, 0.91}), 0.05, 1e-12);  // 3-4-5 from the edge
+  const SolidCaster cylinder(FacingSolid(Shape::kCylinder, 1.0, {0.2, 0.2, 0.1}));
+  EXPECT_NEAR(cylinder.SignedDistance({0.06, 0.08, 1.0}), 0, 1e-12);
+  EXPECT_NEAR(cylinder.SignedDistance({0, 0, 0.93}), 0.02, 1e-12);
+}
+
+TEST(SolidCaster, GivesNoNormalWhereFacesMeet) {
+  const SolidCaster box(FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1}));
+  const auto normal = box.NormalAt({0.05, 0.02, 0.95}, 0.01);
+  ASSERT_TRUE(normal);
+  EXPECT_NEAR(normal->z(), -1, 1e-12);
+  EXPECT_FALSE(box.NormalAt({0.095, 0.02, 0.95}, 0.01));
+}
+
+TEST(CastRays, CountsWhatIsOnInFrontOfAndBehindTheSurface) {
+  const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
+  const auto cast = [&](int depth_mm) {
+    const DepthImage image = Wall(depth_mm);
+    return CastRays(solid, image, NormalImage(image), FarPlane());
+  };
+  const RayEvidence on = cast(950);
+  EXPECT_GT(on.explained.size(), 100u);
+  EXPECT_EQ(on.num_violating, 0);
+  EXPECT_EQ(on.num_contradicting, 0);
+  const RayEvidence in_front = cast(700);
+  EXPECT_GT(in_front.num_occluded, 100);
+  EXPECT_EQ(in_front.explained.size(), 0u);
+  const RayEvidence behind = cast(1500);
+  EXPECT_GT(behind.num_violating, 100);
+  EXPECT_EQ(behind.num_occluded, 0);
+  const RayEvidence unmeasured = cast(0);
+  EXPECT_GT(unmeasured.num_unknown, 100);
+  EXPECT_EQ(unmeasured.num_violating, 0);
+}
+
+TEST(CastRays, LooksIntoAnOpenCylinderWithoutBlame) {
+  const Solid solid = FacingSolid(Shape::kCylinder, 1.0, {0.2, 0.2, 0.1});
+  const DepthImage image = Wall(1020);
+  const RayEvidence evidence = CastRays(solid, image, NormalImage(image), FarPlane());
+  EXPECT_GT(evidence.hollow.size(), 50u);
+  EXPECT_EQ(evidence.num_violating, 0);
+}
+
+TEST(CastRays, LeavesTheSupportPlaneToItself) {
+  const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
+  const DepthImage image = Wall(950);
+  const Plane wall{-Eigen::Vector3d::UnitZ(), 0.95};
+  EXPECT_EQ(CastRays(solid, image, NormalImage(image), wall).explained.size(), 0u);
+}
+
+TEST(NormalImage, GivesTheNormalOfAPlaneAndNothingAtAJump) {
+  DepthImage image = Wall(1000);
+  for (int v = 0; v < 48; ++v) {
+    for (int u = 40; u < 64; ++u) image.counts[static_cast<size_t>(v * 64 + u)] = 1500;
+  }
+  const NormalImage normals(image);
+  EXPECT_NEAR(normals.At(20, 24).z(), -1, 1e-3);
+  EXPECT_TRUE(normals.At(39, 24).isZero());
+}
+
+}  // namespace
+}  // namespace declutter
