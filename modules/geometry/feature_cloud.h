@@ -16,11 +16,11 @@ enum class FeatureMode : int8_t {
 
 // Features of one object point.
 struct FeaturePoint {
-  int32_t pixel = 0;                                  // v * width + u
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();   // unit, toward the camera, in C; zero: unknown
-  float kappa = 0;      // [1/m] horizontal curvature, convex > 0; 0 in paper mode
-  float curvature = 0;  // [1] lambda_0 / (lambda_0 + lambda_1 + lambda_2)
-  float r_min = 0;      // [m] minimum surface radius (RSD); 0 in default mode
+  int32_t pixel = 0;                                 // v * width + u
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit, toward the camera, in C; zero: unknown
+  float kappa = 0;         // [1/m] horizontal curvature, convex > 0; 0 in paper mode
+  float curvature = 0;     // [1] lambda_0 / (lambda_0 + lambda_1 + lambda_2)
+  float r_min = 0;         // [m] minimum surface radius (RSD); 0 in default mode
   int32_t component = -1;  // connected component, 0 .. num_components - 1; -1: none
 };
 
@@ -28,9 +28,9 @@ struct FeaturePoint {
 struct FeatureCloud {
   FrameHeader header;
   FeatureMode mode = FeatureMode::kDefault;
-  int width = 0;          // [px] of the depth image
-  int height = 0;         // [px]
-  int thinning = 1;       // k: only pixels with u % k = v % k = 0 are here
+  int width = 0;     // [px] of the depth image
+  int height = 0;    // [px]
+  int thinning = 1;  // k: only pixels with u % k = v % k = 0 are here
   int num_components = 0;
   std::vector<FeaturePoint> points;
 };

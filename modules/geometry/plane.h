@@ -15,9 +15,9 @@ struct Plane {
   double Height(const Eigen::Vector3d& p_C) const { return normal.dot(p_C) + d; }
 };
 
-// Pose X_TC of C in the table frame T of a plane: z = plane normal, origin = camera centre projected
-// onto the plane, x = camera x projected onto the plane. The xy plane of T is where lines and
-// circles are fitted.
+// Pose X_TC of C in the table frame T of a plane: z = plane normal, origin = camera centre
+// projected onto the plane, x = camera x projected onto the plane. The xy plane of T is where lines
+// and circles are fitted.
 Eigen::Isometry3d TableFrame(const Plane& plane_C);
 
 }  // namespace declutter

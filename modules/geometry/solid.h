@@ -19,7 +19,8 @@ enum class Shape : int8_t { kBox = 0, kCylinder = 1 };
 struct Solid {
   Shape shape = Shape::kBox;
   Eigen::Isometry3d X_CO = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();  // [m] along x, y, z of O; cylinder: 2r, 2r, height
+  Eigen::Vector3d size =
+      Eigen::Vector3d::Zero();  // [m] along x, y, z of O; cylinder: 2r, 2r, height
 
   double radius() const { return 0.5 * size.x(); }
   double height() const { return size.z(); }
@@ -51,12 +52,12 @@ struct ObjectModel {
   int32_t id = 0;  // 1 .. number of objects: its value in the label image
   Solid solid;
   std::array<Evidence, 3> evidence{};
-  float confidence = 0;         // in [0, 1]
-  int32_t supported_by = 0;     // id of the object it stands on, 0: the main support
-  int32_t num_votes = 0;        // votes in the peak of the parameter space
-  int32_t num_explained = 0;    // [px] measured on its surface
-  int32_t num_occluded = 0;     // [px] hidden by something in front
-  int32_t num_violating = 0;    // [px] measured behind its surface: free space inside the solid
+  float confidence = 0;       // in [0, 1]
+  int32_t supported_by = 0;   // id of the object it stands on, 0: the main support
+  int32_t num_votes = 0;      // votes in the peak of the parameter space
+  int32_t num_explained = 0;  // [px] measured on its surface
+  int32_t num_occluded = 0;   // [px] hidden by something in front
+  int32_t num_violating = 0;  // [px] measured behind its surface: free space inside the solid
 };
 
 // The verified objects of a frame.

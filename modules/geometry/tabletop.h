@@ -10,8 +10,9 @@ namespace declutter {
 
 // A horizontal surface that carries objects.
 struct SupportPlane {
-  Plane plane;                        // in C
-  std::vector<Eigen::Vector3f> hull;  // [m] convex hull in C, counter-clockwise seen from the camera
+  Plane plane;  // in C
+  std::vector<Eigen::Vector3f>
+      hull;  // [m] convex hull in C, counter-clockwise seen from the camera
 };
 
 // The support planes of a frame and the depth of the pixels that stand on them.

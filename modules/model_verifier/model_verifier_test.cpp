@@ -13,7 +13,6 @@ namespace {
 using testing::IsEmpty;
 using testing::SizeIs;
 
-
 Hypothesis Proposal(const Solid& solid) {
   Hypothesis hypothesis;
   hypothesis.solid = solid;

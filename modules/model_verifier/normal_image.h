@@ -7,7 +7,7 @@
 
 namespace declutter {
 
-// Surface normals of a depth image, each computed when it is first asked for. Not thread-safe.
+// Surface normals of a depth image, each computed when it is first asked for.
 class NormalImage {
  public:
   // image must outlive this.
