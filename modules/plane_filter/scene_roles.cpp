@@ -9,7 +9,7 @@ namespace declutter {
 namespace {
 
 // A plane without anything on it counts as carrying this part of the image.
-constexpr double kBareLoad = 0.01;
+constexpr double kBareLoad = 0.002;
 
 // Weight of pixels at the image's corners; in the middle it is 1.
 constexpr double kCornerWeight = 0.4;
@@ -25,7 +25,7 @@ constexpr double kMaxPartBehindWall = 0.01;
 
 // A wall's lower end is at most this high over the support [m], or hidden; then it may as well be
 // an object at the far border.
-constexpr double kMaxWallBase = 0.04;
+constexpr double kMaxWallBase = 0.05;
 
 // Points are behind a plane from this distance [m].
 constexpr double kBehind = 0.03;
@@ -155,11 +155,19 @@ void Weigh(const InverseDepth& grid, const std::vector<PlaneCandidate>& candidat
   }
 }
 
+double LevelWeight(double tilt, const PlaneFilterConfig& config) {
+  if (tilt <= config.level_tilt_rad()) return 1;
+  if (tilt >= config.wall_tilt_rad()) return config.wall_weight();
+  const double steepness =
+      (tilt - config.level_tilt_rad()) / (config.wall_tilt_rad() - config.level_tilt_rad());
+  return 1 + steepness * (config.wall_weight() - 1);
+}
+
 double Score(const InverseDepth& grid, const Support& support, bool is_floor,
              const PlaneFilterConfig& config) {
   const double bare_load = kBareLoad * static_cast<double>(grid.values.size());
   const double tilt = Angle(support.plane.normal, -Eigen::Vector3d::UnitY());
-  const double level = tilt <= config.max_tilt_rad() ? 1 : config.wall_weight();
+  const double level = LevelWeight(tilt, config);
   const double high = is_floor ? config.floor_weight() : 1;
   return level * high * std::sqrt(support.pixels * (support.load + bare_load));
 }
