@@ -23,9 +23,10 @@ constexpr double kMinFurtherSupport = 0.02;
 // Part of the main support behind a wall, from which it is a face of an object instead.
 constexpr double kMaxPartBehindWall = 0.01;
 
-// A wall's lower end is at most this high over the support [m], or hidden; then it may as well be
-// an object at the far border.
-constexpr double kMaxWallBase = 0.05;
+// A wall's lower end is at most this high over the support [m], and as many rows of the grid higher
+// as regions lose at their outline; or it is hidden, and it may as well be an object at the border.
+constexpr double kMaxWallBase = 0.02;
+constexpr double kLostRows = 2;
 
 // Points are behind a plane from this distance [m].
 constexpr double kBehind = 0.03;
@@ -85,14 +86,34 @@ bool IsWall(const InverseDepth& grid, const PlaneCandidate& candidate, const Pla
   if (plane.normal.dot(main_plane.normal) > std::cos(kMinWallAngle)) return false;
   const double part_behind = PartOf(
       grid, main_region, [&](const Eigen::Vector3d& p_C) { return plane.Height(p_C) < -kBehind; });
+  const double lost_angle = kLostRows * (grid.ray_y[1] - grid.ray_y[0]);
   const double part_low = PartOf(grid, candidate.region, [&](const Eigen::Vector3d& p_C) {
-    return main_plane.Height(p_C) < kMaxWallBase;
+    return main_plane.Height(p_C) < kMaxWallBase + lost_angle * p_C.z();
   });
   return part_behind < kMaxPartBehindWall && part_low > 0;
 }
 
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
+}
+
+// Marks the region and the inliers at its outline, which regions leave out.
+void MarkWithOutline(const InverseDepth& grid, const PlaneCandidate& candidate,
+                     const PlaneFilterConfig& config, PixelMask* mask) {
+  const float band = static_cast<float>(config.inlier_sigmas() * config.inverse_depth_sigma());
+  const PixelMask inliers = PlaneInliers(grid, candidate.plane, band);
+  for (int v = 0; v < grid.height; ++v) {
+    for (int u = 0; u < grid.width; ++u) {
+      if (!candidate.region[grid.Index(u, v)]) continue;
+      // Regions leave the outermost rows and columns out: all neighbours exist.
+      for (int dv = -1; dv <= 1; ++dv) {
+        for (int du = -1; du <= 1; ++du) {
+          const size_t i = grid.Index(u + du, v + dv);
+          (*mask)[i] |= inliers[i];
+        }
+      }
+    }
+  }
 }
 
 // Pixels that cannot be the load of a plane: those of level planes, which may be supports
@@ -107,8 +128,7 @@ PixelMask NotLoad(const InverseDepth& grid, const std::vector<PlaneCandidate>& c
              StandsOn(grid, candidates[j].region, supports[k], config) &&
              !IsWall(grid, candidates[j], supports[k].plane, candidates[k].region);
     }
-    if (load) continue;
-    for (size_t i = 0; i < excluded.size(); ++i) excluded[i] |= candidates[j].region[i];
+    if (!load) MarkWithOutline(grid, candidates[j], config, &excluded);
   }
   return excluded;
 }
