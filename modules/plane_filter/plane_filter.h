@@ -12,8 +12,10 @@ class PlaneFilter {
  public:
   explicit PlaneFilter(const PlaneFilterConfig& config);
 
-  // The tabletop of a frame in its camera frame C. A frame without a plane, or with an error, gives
-  // a tabletop without planes and without object points.
+  // The tabletop of a frame in its camera frame C. Object pixels are those of the main support;
+  // further planes are parallel to it and fill at least 2 % of the image, the floor for example,
+  // and tops of objects are not listed. A frame without a plane, or with an error, gives a tabletop
+  // without planes and without object points.
   Tabletop Filter(const DepthFrame& frame) const;
 
  private:

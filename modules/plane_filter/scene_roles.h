@@ -14,7 +14,8 @@ struct SceneRoles {
   // are the tops of objects and no supports. Empty when there is no candidate.
   std::vector<size_t> supports;
   // Steep planes at the border of the main support with nothing of it behind them: walls, or what
-  // stands beside the table.
+  // stands beside the table. A box as wide as all that is seen of the table cannot be told from
+  // one.
   std::vector<size_t> walls;
 };
 
