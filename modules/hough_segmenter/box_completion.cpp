@@ -55,9 +55,9 @@ Rectangle FromFace(const Face& face) {
   Rectangle r;
   // Body behind the face: b runs along -n, so that perpendicular() = -n.
   const LineModel& line = face.model;
-  r.axis = -line.tangent();
-  r.a_min = -line.s_max;
-  r.a_max = -line.s_min;
+  r.axis = line.tangent();
+  r.a_min = line.s_min;
+  r.a_max = line.s_max;
   r.b_min = r.b_max = -line.rho;
   r.z_min = line.z_min;
   r.z_max = line.z_max;
@@ -244,23 +244,19 @@ std::vector<Face> WithJoinedFaces(const std::vector<Face>& faces, float max_exte
   std::vector<Face> all = faces;
   for (size_t i = 0; i < faces.size(); ++i) {
     for (size_t j = i + 1; j < faces.size(); ++j) {
-      if (faces[i].component != faces[j].component) continue;
       if (const auto joined = Join(faces[i], faces[j], max_extent)) all.push_back(*joined);
     }
   }
   return all;
 }
 
-// All patches, and those that come of joining two at the same height: something may stand between
-// them or in front.
+// All patches, and those that come of joining two at the same height, of the same component or not:
+// something may stand between them or in front.
 std::vector<TopPatch> WithJoinedPatches(const std::vector<TopPatch>& tops) {
   std::vector<TopPatch> all = tops;
   for (size_t i = 0; i < tops.size(); ++i) {
     for (size_t j = i + 1; j < tops.size(); ++j) {
-      if (tops[i].component != tops[j].component ||
-          std::abs(tops[i].height - tops[j].height) > kSameHeight) {
-        continue;
-      }
+      if (std::abs(tops[i].height - tops[j].height) > kSameHeight) continue;
       TopPatch joined = tops[i];
       joined.points.insert(joined.points.end(), tops[j].points.begin(), tops[j].points.end());
       joined.hull.insert(joined.hull.end(), tops[j].hull.begin(), tops[j].hull.end());
@@ -287,7 +283,7 @@ std::vector<Hypothesis> CompleteBoxes(const HoughSegmenterConfig& config,
   for (const TopPatch& patch : WithJoinedPatches(surfaces.tops)) {
     std::vector<const Face*> attached;
     for (size_t i = 0; i < faces.size(); ++i) {
-      if (faces[i].component != patch.component || !IsAttached(faces[i], patch)) continue;
+      if (!IsAttached(faces[i], patch)) continue;
       attached.push_back(&faces[i]);
       if (const auto grown = GrowOver(faces[i], patch, max_extent)) {
         rectangles.push_back(*grown);

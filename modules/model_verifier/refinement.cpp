@@ -45,7 +45,7 @@ bool IsWithin(const SurfacePoint& point, int except_axis, const Eigen::Vector3d&
 // 1 / variance of the distance to a surface with this normal. Half the sensor's noise does not
 // average out at grazing rays, which bounds the weight.
 double Weight(const SurfacePoint& point, double cosine) {
-  const double sigma = point.sigma * std::max(std::abs(cosine), 0.3);
+  const double sigma = point.sigma * std::max(std::abs(cosine), 0.5);
   return 1 / (sigma * sigma);
 }
 
@@ -188,7 +188,7 @@ bool FitSide(const std::vector<SurfacePoint>& points, double half_height, Eigen:
     }
     const Eigen::Vector2d n = q / distance;
     const double cosine = n.dot(point.ray_O.head<2>());
-    if (cosine > -0.05 || (!point.n_O.isZero() && n.dot(point.n_O.head<2>()) < kMinCos)) continue;
+    if (cosine > -0.4 || (!point.n_O.isZero() && n.dot(point.n_O.head<2>()) < kMinCos)) continue;
     const Eigen::Vector3d J(-n.x(), -n.y(), -1);
     const double w = Weight(point, cosine);
     H += w * J * J.transpose();
