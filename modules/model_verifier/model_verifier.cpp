@@ -8,6 +8,7 @@
 namespace declutter {
 namespace {
 
+constexpr double kUnexplainedReach = 0.020;  // [m] from a solid to points that it should explain
 constexpr double kSupportTolerance = 0.012;  // [m] between a bottom and the top it stands on
 
 // Heights of the ends of a solid above the support plane [m].
@@ -81,10 +82,50 @@ void Label(const std::vector<RayEvidence>& evidence, ObjectList* list) {
   }
 }
 
-double Confidence(const RayEvidence& evidence) {
-  const auto explained = static_cast<double>(evidence.explained.size());
-  return explained /
-         (explained + 2.0 * (evidence.num_violating + evidence.num_contradicting) + 50.0);
+// Points above the support within reach of a solid that no object explains: where there are many,
+// something else stands there than a box or an upright cylinder.
+int NumUnexplained(const Solid& solid, const DepthImage& image, const Plane& support,
+                   const std::vector<uint8_t>& labels) {
+  const PixelWindow window = ProjectionWindow(solid, kUnexplainedReach, image.camera);
+  const SolidCaster caster(solid);
+  int num = 0;
+  for (int v = window.v_begin; v < window.v_end; ++v) {
+    for (int u = window.u_begin; u < window.u_end; ++u) {
+      const double z = image.DepthAt(u, v);
+      if (z <= 0 || labels[static_cast<size_t>(v * image.camera.width + u)] != 0) continue;
+      const Eigen::Vector3d p_C = image.camera.Ray(u, v) * z;
+      num += caster.SignedDistance(p_C) < kUnexplainedReach &&
+             support.Height(p_C) > 1.5 * SurfaceTolerance(z);
+    }
+  }
+  return num;
+}
+
+// Mean fit of the explained pixels, times their share of all pixels that speak for or against the
+// solid.
+double Confidence(const RayEvidence& evidence, int num_unexplained) {
+  double fit = 0;
+  for (const auto& pixel : evidence.explained) fit += pixel.fit;
+  const auto num_explained = static_cast<double>(evidence.explained.size());
+  return fit / std::max(1.0, num_explained + evidence.num_violating + evidence.num_contradicting +
+                                 num_unexplained);
+}
+
+// Renumbers what is left after objects below the least confidence are gone.
+void DropUncertain(double min_confidence, ObjectList* list) {
+  std::vector<uint8_t> new_id(list->objects.size() + 1, 0);
+  std::vector<ObjectModel> kept;
+  for (const ObjectModel& object : list->objects) {
+    if (object.confidence < min_confidence) continue;
+    new_id[static_cast<size_t>(object.id)] = static_cast<uint8_t>(kept.size() + 1);
+    kept.push_back(object);
+  }
+  for (ObjectModel& object : kept) {
+    object.id = new_id[static_cast<size_t>(object.id)];
+    object.supported_by = new_id[static_cast<size_t>(object.supported_by)];
+  }
+  for (uint8_t& label : list->labels) label = new_id[label];
+  list->objects = std::move(kept);
 }
 
 }  // namespace
@@ -118,10 +159,15 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
     object.num_explained = static_cast<int32_t>(evidence.back().explained.size());
     object.num_occluded = evidence.back().num_occluded;
     object.num_violating = evidence.back().num_violating;
-    object.confidence = static_cast<float>(Confidence(evidence.back()));
     object.id = static_cast<int32_t>(evidence.size());
   }
   Label(evidence, &list);
+  for (size_t i = 0; i < list.objects.size(); ++i) {
+    ObjectModel& object = list.objects[i];
+    object.confidence = static_cast<float>(
+        Confidence(evidence[i], NumUnexplained(object.solid, frame.image, support, list.labels)));
+  }
+  DropUncertain(config_.min_confidence(), &list);
   return list;
 }
 
