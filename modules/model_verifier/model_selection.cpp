@@ -7,6 +7,8 @@
 namespace declutter {
 namespace {
 
+constexpr size_t kMaxObjects = 255;  // ids fit the label image
+
 // Share of `a`, sampled on a grid, that lies deeper than the tolerance inside `b`.
 double SharedVolume(const Solid& a, const SolidCaster& b) {
   constexpr int kSteps = 7;
@@ -73,7 +75,7 @@ class Selection {
 
   std::vector<Candidate> Run() {
     std::vector<Candidate> selected;
-    while (!candidates_.empty()) {
+    while (!candidates_.empty() && selected.size() < kMaxObjects) {
       const auto best =
           std::max_element(candidates_.begin(), candidates_.end(),
                            [](const Candidate& a, const Candidate& b) { return a.gain < b.gain; });

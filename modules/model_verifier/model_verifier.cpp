@@ -1,65 +1,13 @@
 #include "modules/model_verifier/model_verifier.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "modules/model_verifier/confidence.h"
 #include "modules/model_verifier/model_selection.h"
+#include "modules/model_verifier/support_settling.h"
 
 namespace declutter {
 namespace {
-
-constexpr double kUnexplainedReach = 0.020;  // [m] from a solid to points that it should explain
-constexpr double kSupportTolerance = 0.012;  // [m] between a bottom and the top it stands on
-
-// Heights of the ends of a solid above the support plane [m].
-double Bottom(const Solid& solid, const Plane& support) {
-  return support.Height(solid.X_CO.translation()) - 0.5 * solid.height();
-}
-double Top(const Solid& solid, const Plane& support) {
-  return support.Height(solid.X_CO.translation()) + 0.5 * solid.height();
-}
-
-// True when the middle part of the upper solid's footprint lies over the lower solid.
-bool IsOver(const Solid& upper, const Solid& lower) {
-  const SolidCaster caster(lower);
-  int num_over = 0;
-  for (int i = -1; i <= 1; ++i) {
-    for (int j = -1; j <= 1; ++j) {
-      const Eigen::Vector3d p_O(0.3 * i * upper.size.x(), 0.3 * j * upper.size.y(), 0);
-      const Eigen::Vector3d axis_C = upper.X_CO.linear().col(2);
-      const Eigen::Vector3d p_C = upper.X_CO * p_O;
-      const Eigen::Vector3d in_lower = p_C - axis_C * axis_C.dot(p_C - lower.X_CO.translation());
-      num_over += caster.SignedDistance(in_lower) < 0;
-    }
-  }
-  return num_over >= 3;
-}
-
-// Extends solids whose lower end nobody saw down to what they stand on, and notes what each stands
-// on. Objects are in the order of their bottoms.
-void SettleOnSupports(const Plane& support, std::vector<ObjectModel>* objects) {
-  std::stable_sort(objects->begin(), objects->end(),
-                   [&](const ObjectModel& a, const ObjectModel& b) {
-                     return Top(a.solid, support) < Top(b.solid, support);
-                   });
-  for (size_t i = 0; i < objects->size(); ++i) {
-    ObjectModel& upper = (*objects)[i];
-    const double bottom = Bottom(upper.solid, support);
-    double floor = 0;
-    for (size_t j = 0; j < i; ++j) {
-      const ObjectModel& lower = (*objects)[j];
-      const double top = Top(lower.solid, support);
-      if (top > floor && top < bottom + kSupportTolerance && IsOver(upper.solid, lower.solid)) {
-        floor = top;
-        upper.supported_by = static_cast<int32_t>(j + 1);
-      }
-    }
-    if (upper.evidence[2] != Evidence::kAssumed) continue;
-    const double change = bottom - floor;
-    upper.solid.size.z() += change;
-    upper.solid.X_CO.translation() -= 0.5 * change * upper.solid.X_CO.linear().col(2);
-  }
-}
 
 // The label image: each pixel belongs to the object whose surface it fits best; what is seen inside
 // an open cylinder belongs to it when nothing else explains it.
@@ -80,35 +28,6 @@ void Label(const std::vector<RayEvidence>& evidence, ObjectList* list) {
       if (label == 0) label = static_cast<uint8_t>(i + 1);
     }
   }
-}
-
-// Points above the support within reach of a solid that no object explains: where there are many,
-// something else stands there than a box or an upright cylinder.
-int NumUnexplained(const Solid& solid, const DepthImage& image, const Plane& support,
-                   const std::vector<uint8_t>& labels) {
-  const PixelWindow window = ProjectionWindow(solid, kUnexplainedReach, image.camera);
-  const SolidCaster caster(solid);
-  int num = 0;
-  for (int v = window.v_begin; v < window.v_end; ++v) {
-    for (int u = window.u_begin; u < window.u_end; ++u) {
-      const double z = image.DepthAt(u, v);
-      if (z <= 0 || labels[static_cast<size_t>(v * image.camera.width + u)] != 0) continue;
-      const Eigen::Vector3d p_C = image.camera.Ray(u, v) * z;
-      num += caster.SignedDistance(p_C) < kUnexplainedReach &&
-             support.Height(p_C) > 1.5 * SurfaceTolerance(z);
-    }
-  }
-  return num;
-}
-
-// Mean fit of the explained pixels, times their share of all pixels that speak for or against the
-// solid.
-double Confidence(const RayEvidence& evidence, int num_unexplained) {
-  double fit = 0;
-  for (const auto& pixel : evidence.explained) fit += pixel.fit;
-  const auto num_explained = static_cast<double>(evidence.explained.size());
-  return fit / std::max(1.0, num_explained + evidence.num_violating + evidence.num_contradicting +
-                                 num_unexplained);
 }
 
 // Renumbers what is left after objects below the least confidence are gone.
@@ -164,8 +83,8 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   Label(evidence, &list);
   for (size_t i = 0; i < list.objects.size(); ++i) {
     ObjectModel& object = list.objects[i];
-    object.confidence = static_cast<float>(
-        Confidence(evidence[i], NumUnexplained(object.solid, frame.image, support, list.labels)));
+    object.confidence = static_cast<float>(Confidence(
+        object, evidence[i], NumUnexplained(object.solid, frame.image, support, list.labels)));
   }
   DropUncertain(config_.min_confidence(), &list);
   return list;
