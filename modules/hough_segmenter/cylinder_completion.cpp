@@ -9,8 +9,11 @@ namespace {
 
 constexpr float kTopTolerance = 0.025f;     // [m] between the top of an arc and the disc above it
 constexpr float kMaxBottomGap = 0.020f;     // [m] unseen above the support: it stands there
-constexpr float kMaxOutlineError = 0.004f;  // [m] rms of a disc's outline
-constexpr float kMinDiscFill = 0.5f;        // of the circle's area that the patch's hull covers
+constexpr float kOutlineStep = 0.002f;      // [m] between points of an outline
+constexpr float kMaxOutlineError = 0.003f;  // [m] of a disc's outline
+constexpr size_t kMaxCorners = 20;          // outline points that circles are laid through
+constexpr float kMinDiscArc = 2.0f;         // [rad] of the circle that the outline covers
+constexpr double kMinDiscShare = 0.5;       // of the outline that lies on the circle
 
 Hypothesis MakeCylinder(const CircleModel& circle, int component) {
   Hypothesis hypothesis;
@@ -39,40 +42,73 @@ const TopPatch* DiscOf(const CircleModel& circle, const std::vector<TopPatch>& t
   return best;
 }
 
-// Algebraic circle through the outline of a patch; nothing when the outline is not round.
-std::optional<CircleModel> FitDisc(const TopPatch& patch) {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  const Eigen::Vector2f origin = patch.hull[0];
-  double area = 0;
-  for (size_t i = 0; i < patch.hull.size(); ++i) {
-    const Eigen::Vector2d p = (patch.hull[i] - origin).cast<double>();
-    const Eigen::Vector2d q = (patch.hull[(i + 1) % patch.hull.size()] - origin).cast<double>();
-    area += 0.5 * (p.x() * q.y() - p.y() * q.x());
-    // Points along the edge, so that its length counts.
-    const int num_steps = 1 + static_cast<int>((q - p).norm() / 0.002);
+// Points along the hull, so that the length of its edges counts.
+std::vector<Eigen::Vector2f> Outline(const std::vector<Eigen::Vector2f>& hull) {
+  std::vector<Eigen::Vector2f> points;
+  for (size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2f edge = hull[(i + 1) % hull.size()] - hull[i];
+    const int num_steps = 1 + static_cast<int>(edge.norm() / kOutlineStep);
     for (int step = 0; step < num_steps; ++step) {
-      const Eigen::Vector2d r = p + (q - p) * step / num_steps;
-      const Eigen::Vector3d row(r.x(), r.y(), 1);
-      A += row * row.transpose();
-      b += row * r.squaredNorm();
+      points.emplace_back(hull[i] +
+                          edge * (static_cast<float>(step) / static_cast<float>(num_steps)));
     }
   }
-  const Eigen::Vector3d x = A.ldlt().solve(b);
+  return points;
+}
+
+std::optional<CircleModel> CircleThrough(const Eigen::Vector2f& a, const Eigen::Vector2f& b,
+                                         const Eigen::Vector2f& c) {
+  Eigen::Matrix2f A;
+  A << (b - a).transpose(), (c - a).transpose();
+  if (std::abs(A.determinant()) < 1e-5f) return std::nullopt;
+  const Eigen::Vector2f rhs(0.5f * (b.squaredNorm() - a.squaredNorm()),
+                            0.5f * (c.squaredNorm() - a.squaredNorm()));
   CircleModel circle;
-  const Eigen::Vector2d c = 0.5 * x.head<2>();
-  const double r = std::sqrt(std::max(0.0, x.z() + c.squaredNorm()));
-  double squared_error = 0;
-  for (const Eigen::Vector2f& p : patch.hull) {
-    squared_error += std::pow(((p - origin).cast<double>() - c).norm() - r, 2);
-  }
-  const double rms = std::sqrt(squared_error / static_cast<double>(patch.hull.size()));
-  if (!(rms < kMaxOutlineError) || area < kMinDiscFill * M_PI * r * r) return std::nullopt;
-  circle.c = c.cast<float>() + origin;
-  circle.r = static_cast<float>(r);
-  circle.z_min = patch.height - 0.005f;
-  circle.z_max = patch.height;
+  circle.c = A.inverse() * rhs;
+  circle.r = (circle.c - a).norm();
   return circle;
+}
+
+// Outline points on the circle; none when part of the patch lies outside it.
+int NumOnCircle(const std::vector<Eigen::Vector2f>& outline, const CircleModel& circle) {
+  int num = 0;
+  for (const Eigen::Vector2f& p : outline) {
+    const float distance = (p - circle.c).norm() - circle.r;
+    if (distance > kMaxOutlineError) return 0;
+    num += distance > -kMaxOutlineError;
+  }
+  return num;
+}
+
+// The circle that the largest part of a patch's outline lies on, the rest being cut off by what
+// hides it; nothing when that part is small.
+std::optional<CircleModel> FitDisc(const HoughSegmenterConfig& config, const TopPatch& patch) {
+  const std::vector<Eigen::Vector2f> outline = Outline(patch.hull);
+  const size_t stride = outline.size() / kMaxCorners + 1;
+  CircleModel best;
+  int best_num = 0;
+  for (size_t i = 0; i < outline.size(); i += stride) {
+    for (size_t j = i + stride; j < outline.size(); j += stride) {
+      for (size_t k = j + stride; k < outline.size(); k += stride) {
+        const auto circle = CircleThrough(outline[i], outline[j], outline[k]);
+        if (!circle || circle->r < config.min_radius_m() || circle->r > config.max_radius_m()) {
+          continue;
+        }
+        const int num = NumOnCircle(outline, *circle);
+        if (num <= best_num) continue;
+        best_num = num;
+        best = *circle;
+      }
+    }
+  }
+  const float arc = static_cast<float>(best_num) * kOutlineStep;
+  if (arc < kMinDiscArc * best.r ||
+      static_cast<double>(best_num) < kMinDiscShare * static_cast<double>(outline.size())) {
+    return std::nullopt;
+  }
+  best.z_min = patch.height - 0.005f;
+  best.z_max = patch.height;
+  return best;
 }
 
 }  // namespace
@@ -92,8 +128,8 @@ std::vector<Hypothesis> CompleteCylinders(const HoughSegmenterConfig& config,
     hypotheses.push_back(hypothesis);
   }
   for (const TopPatch& patch : surfaces.tops) {
-    const auto circle = FitDisc(patch);
-    if (!circle || circle->r < config.min_radius_m() || circle->r > config.max_radius_m()) continue;
+    const auto circle = FitDisc(config, patch);
+    if (!circle) continue;
     Hypothesis hypothesis = MakeCylinder(*circle, patch.component);
     hypothesis.num_inliers = static_cast<int>(patch.points.size());
     hypothesis.score = 0.5f;

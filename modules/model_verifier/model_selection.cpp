@@ -12,7 +12,7 @@ constexpr size_t kMaxObjects = 255;  // ids fit the label image
 // Share of `a`, sampled on a grid, that lies deeper than the tolerance inside `b`.
 double SharedVolume(const Solid& a, const SolidCaster& b) {
   constexpr int kSteps = 7;
-  constexpr double kMinDepth = 0.004;  // [m]
+  const double min_depth = std::min(0.004, 0.15 * a.size.minCoeff());  // [m]
   int num_inside = 0;
   int num_samples = 0;
   for (int i = 0; i < kSteps; ++i) {
@@ -22,7 +22,7 @@ double SharedVolume(const Solid& a, const SolidCaster& b) {
             Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5) / kSteps - Eigen::Vector3d::Constant(0.5);
         if (a.shape == Shape::kCylinder && x.head<2>().norm() > 0.5) continue;
         ++num_samples;
-        num_inside += b.SignedDistance(a.X_CO * x.cwiseProduct(a.size)) < -kMinDepth;
+        num_inside += b.SignedDistance(a.X_CO * x.cwiseProduct(a.size)) < -min_depth;
       }
     }
   }

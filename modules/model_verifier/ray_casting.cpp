@@ -154,7 +154,7 @@ RayEvidence CastRays(const Solid& solid, const DepthImage& image, const NormalIm
         ++evidence.num_occluded;
       } else if (solid.shape == Shape::kCylinder && passage->through_top && distance < 0) {
         evidence.hollow.push_back(v * camera.width + u);
-      } else if (std::min(z, passage->z_out) - passage->z_in > 2 * tolerance) {
+      } else if (std::min(z, passage->z_out) - passage->z_in > tolerance) {
         ++evidence.num_violating;
       }
     }
