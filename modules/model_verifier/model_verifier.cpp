@@ -71,7 +71,7 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
     object.num_votes = candidate.hypothesis.num_votes;
     list.objects.push_back(object);
   }
-  SettleOnSupports(support, &list.objects);
+  SettleOnSupports(support, frame.image, normals, &list.objects);
   std::vector<RayEvidence> evidence;
   for (ObjectModel& object : list.objects) {
     evidence.push_back(CastRays(object.solid, frame.image, normals, support));

@@ -8,6 +8,9 @@ namespace declutter {
 namespace {
 
 constexpr double kSupportTolerance = 0.012;  // [m] between a bottom and the top it stands on
+constexpr double kMinFootprint = 0.05;       // share over an object that can carry the upper one
+constexpr double kFullFootprint = 0.30;      // share over an object that must carry it
+constexpr double kMaxNewViolating = 0.1;     // of the explained pixels, by extending a solid down
 
 // Heights of the ends of a solid above the support plane [m].
 double Bottom(const Solid& solid, const Plane& support) {
@@ -17,45 +20,87 @@ double Top(const Solid& solid, const Plane& support) {
   return support.Height(solid.X_CO.translation()) + 0.5 * solid.height();
 }
 
-// True when the middle part of the upper solid's footprint lies over the lower solid.
-bool IsOver(const Solid& upper, const Solid& lower) {
+// Share of the upper solid's footprint that lies over the lower solid.
+double FootprintOver(const Solid& upper, const Solid& lower) {
+  constexpr int kSteps = 5;
   const SolidCaster caster(lower);
+  const Eigen::Vector3d axis_C = upper.X_CO.linear().col(2);
   int num_over = 0;
-  for (int i = -1; i <= 1; ++i) {
-    for (int j = -1; j <= 1; ++j) {
-      const Eigen::Vector3d p_O(0.3 * i * upper.size.x(), 0.3 * j * upper.size.y(), 0);
-      const Eigen::Vector3d axis_C = upper.X_CO.linear().col(2);
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      const Eigen::Vector3d p_O((0.9 * (i + 0.5) / kSteps - 0.45) * upper.size.x(),
+                                (0.9 * (j + 0.5) / kSteps - 0.45) * upper.size.y(), 0);
       const Eigen::Vector3d p_C = upper.X_CO * p_O;
-      const Eigen::Vector3d in_lower = p_C - axis_C * axis_C.dot(p_C - lower.X_CO.translation());
-      num_over += caster.SignedDistance(in_lower) < 0;
+      const double height = axis_C.dot(p_C - lower.X_CO.translation());
+      num_over += caster.SignedDistance(p_C - height * axis_C) < 0;
     }
   }
-  return num_over >= 3;
+  return static_cast<double>(num_over) / (kSteps * kSteps);
+}
+
+// The solid with its lower end moved to a height above the support plane.
+Solid Extended(Solid solid, double bottom, double new_bottom) {
+  const double change = bottom - new_bottom;
+  solid.size.z() += change;
+  solid.X_CO.translation() -= 0.5 * change * solid.X_CO.linear().col(2);
+  return solid;
+}
+
+// What an object could stand on.
+struct Floor {
+  double height = 0;         // [m] above the support plane
+  int32_t supported_by = 0;  // id of the object below, 0: the support plane
+};
+
+// Floors below a solid, lowest first. An object under much of its footprint hides all lower ones.
+std::vector<Floor> FloorsBelow(const std::vector<ObjectModel>& objects, size_t upper, double bottom,
+                               const Plane& support) {
+  std::vector<Floor> floors = {Floor()};
+  for (size_t j = 0; j < upper; ++j) {
+    const double top = Top(objects[j].solid, support);
+    const double share = FootprintOver(objects[upper].solid, objects[j].solid);
+    if (top > bottom + kSupportTolerance || share < kMinFootprint) continue;
+    if (share > kFullFootprint) {
+      floors.erase(std::remove_if(floors.begin(), floors.end(),
+                                  [top](const Floor& floor) { return floor.height < top; }),
+                   floors.end());
+    }
+    floors.push_back({top, static_cast<int32_t>(j + 1)});
+  }
+  std::stable_sort(floors.begin(), floors.end(),
+                   [](const Floor& a, const Floor& b) { return a.height < b.height; });
+  return floors;
 }
 
 }  // namespace
 
-void SettleOnSupports(const Plane& support, std::vector<ObjectModel>* objects) {
+void SettleOnSupports(const Plane& support, const DepthImage& image, const NormalImage& normals,
+                      std::vector<ObjectModel>* objects) {
   std::stable_sort(objects->begin(), objects->end(),
                    [&](const ObjectModel& a, const ObjectModel& b) {
                      return Top(a.solid, support) < Top(b.solid, support);
                    });
+  const auto num_violating = [&](const Solid& solid) {
+    return CastRays(solid, image, normals, support).num_violating;
+  };
   for (size_t i = 0; i < objects->size(); ++i) {
     ObjectModel& upper = (*objects)[i];
     const double bottom = Bottom(upper.solid, support);
-    double floor = 0;
-    for (size_t j = 0; j < i; ++j) {
-      const ObjectModel& lower = (*objects)[j];
-      const double top = Top(lower.solid, support);
-      if (top > floor && top < bottom + kSupportTolerance && IsOver(upper.solid, lower.solid)) {
-        floor = top;
-        upper.supported_by = static_cast<int32_t>(j + 1);
-      }
+    const std::vector<Floor> floors = FloorsBelow(*objects, i, bottom, support);
+    if (upper.evidence[2] != Evidence::kAssumed) {
+      upper.supported_by = floors.back().supported_by;
+      continue;
     }
-    if (upper.evidence[2] != Evidence::kAssumed) continue;
-    const double change = bottom - floor;
-    upper.solid.size.z() += change;
-    upper.solid.X_CO.translation() -= 0.5 * change * upper.solid.X_CO.linear().col(2);
+    const RayEvidence seen = CastRays(upper.solid, image, normals, support);
+    const double max_violating =
+        seen.num_violating + kMaxNewViolating * static_cast<double>(seen.explained.size());
+    for (const Floor& floor : floors) {
+      const Solid extended = Extended(upper.solid, bottom, floor.height);
+      if (&floor != &floors.back() && num_violating(extended) > max_violating) continue;
+      upper.solid = extended;
+      upper.supported_by = floor.supported_by;
+      break;
+    }
   }
 }
 
