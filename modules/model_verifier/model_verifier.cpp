@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "modules/model_verifier/confidence.h"
+#include "modules/model_verifier/extent_evidence.h"
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/support_settling.h"
 
@@ -85,6 +86,9 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
     ObjectModel& object = list.objects[i];
     object.confidence = static_cast<float>(Confidence(
         object, evidence[i], NumUnexplained(object.solid, frame.image, support, list.labels)));
+  }
+  for (ObjectModel& object : list.objects) {
+    object.evidence = ExtentEvidence(object.solid, object.evidence, frame.image);
   }
   DropUncertain(config_.min_confidence(), &list);
   return list;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "modules/model_verifier/extent_evidence.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/scene_renderer/scene_renderer.h"
 #include "modules/scene_renderer/scene_text.h"
@@ -106,6 +107,18 @@ TEST(ModelVerifier, GivesAnEmptyListForAnEmptyFrame) {
   EXPECT_THAT(list.objects, IsEmpty());
   EXPECT_THAT(list.labels, IsEmpty());
   EXPECT_EQ(list.header.error, "no image");
+}
+
+TEST(ExtentEvidence, IsObservedWithFreeSpaceAroundAndAssumedBehindAnOccluder) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.2 size_y_m: 0.06 size_z_m: 0.12 } y_m: 0.75 }"
+      "object { box { size_x_m: 0.1 size_y_m: 0.06 size_z_m: 0.3 } x_m: 0.12 y_m: 0.62 }");
+  const Solid& behind = scene.objects[0].solid;
+  const Solid& in_front = scene.objects[1].solid;
+  const std::array<Evidence, 3> given = {};
+  EXPECT_EQ(ExtentEvidence(in_front, given, scene.depth)[0], Evidence::kObserved);
+  EXPECT_EQ(ExtentEvidence(behind, given, scene.depth)[0], Evidence::kAssumed);
+  EXPECT_EQ(ExtentEvidence(behind, given, scene.depth)[2], Evidence::kObserved);
 }
 
 TEST(Refine, BringsAnInaccurateBoxToTheTruth) {
