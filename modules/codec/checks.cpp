@@ -2,12 +2,9 @@
 
 #include <cmath>
 
+#include "modules/geometry/image_limits.h"
+
 namespace declutter::codec {
-namespace {
-
-constexpr int32_t kMaxSide_px = 4096;
-
-}  // namespace
 
 std::string Field::Text() const {
   return index < 0 ? name : std::string(name) + "[" + std::to_string(index) + "]";
@@ -51,8 +48,9 @@ size_t CheckImageSize(int32_t width, int32_t height, const std::string& error) {
     Check(height == 0, "height", height, "must be 0 in a frame with an error");
     return 0;
   }
-  Check(width > 0 && width <= kMaxSide_px, "width", width, "must be in [1, 4096]");
-  Check(height > 0 && height <= kMaxSide_px, "height", height, "must be in [1, 4096]");
+  const std::string rule = "must be in [1, " + std::to_string(kMaxImageSide_px) + "]";
+  Check(width > 0 && width <= kMaxImageSide_px, "width", width, rule.c_str());
+  Check(height > 0 && height <= kMaxImageSide_px, "height", height, rule.c_str());
   return static_cast<size_t>(width) * static_cast<size_t>(height);
 }
 

@@ -59,7 +59,7 @@ void CheckLength(const char* name, const std::vector<Element>& array, const char
 }
 
 // DemandImageSize throws std::logic_error, CheckImageSize BadMessage: the image is empty exactly
-// when the frame has an error, and has at most 4096 x 4096 pixels. Both return their number.
+// when the frame has an error, and has no side over kMaxImageSide_px. Both return their number.
 size_t DemandImageSize(int width, int height, const std::string& error);
 size_t CheckImageSize(int32_t width, int32_t height, const std::string& error);
 

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <ios>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "modules/geometry/image_limits.h"
 #include "modules/imaging/png_file.h"
 
 namespace declutter {
@@ -15,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kMaxSidePx = 8192;
+constexpr double kMaxCenterPx = 4 * kMaxImageSide_px;
 constexpr double kMaxFocalLengthPx = 1e6;
 constexpr double kMaxDepthScaleM = 1;
 
@@ -37,6 +40,8 @@ json ReadJsonObject(const std::filesystem::path& path) {
     // what() begins with the name of the exception in brackets.
     const std::string text = error.what();
     Throw(path, "not JSON: " + text.substr(text.find("] ") + 2));
+  } catch (const std::ios_base::failure& error) {  // opens, but is a folder
+    Throw(path, error.code().message());
   }
   if (!object.is_object()) Throw(path, "not a JSON object");
   return object;
@@ -49,13 +54,15 @@ double Number(const std::filesystem::path& path, const json& object, const char*
   if (!value.is_number()) Throw(path, std::string(key) + " is not a number");
   const double number = value.get<double>();
   if (!(number >= min && number <= max)) {
-    Throw(path, std::string(key) + " = " + value.dump() + " is out of range");
+    std::ostringstream text;
+    text << key << " = " << value << " outside [" << min << ", " << max << "]";
+    Throw(path, text.str());
   }
   return number;
 }
 
 int Side(const std::filesystem::path& path, const json& object, const char* key) {
-  const double side = Number(path, object, key, 1, kMaxSidePx);
+  const double side = Number(path, object, key, 1, kMaxImageSide_px);
   if (side != std::floor(side)) Throw(path, std::string(key) + " is not a whole number");
   return static_cast<int>(side);
 }
@@ -69,8 +76,8 @@ CameraFile ReadCameraFile(const std::filesystem::path& path) {
   file.camera.height = Side(path, object, "height");
   file.camera.fx = Number(path, object, "fx", 1, kMaxFocalLengthPx);
   file.camera.fy = Number(path, object, "fy", 1, kMaxFocalLengthPx);
-  file.camera.cx = Number(path, object, "cx", -kMaxSidePx, 2 * kMaxSidePx);
-  file.camera.cy = Number(path, object, "cy", -kMaxSidePx, 2 * kMaxSidePx);
+  file.camera.cx = Number(path, object, "cx", -kMaxCenterPx, kMaxCenterPx);
+  file.camera.cy = Number(path, object, "cy", -kMaxCenterPx, kMaxCenterPx);
   if (object.contains("depth_scale_m")) {
     file.depth_scale_m = Number(path, object, "depth_scale_m", 1e-6, kMaxDepthScaleM);
   }

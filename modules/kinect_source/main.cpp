@@ -54,8 +54,25 @@ class KinectSourceModule {
   }
 
   void Publish(const RecordedFrame& frame) {
-    if (frame.color) color_.Publish(codec::Encode(frame.depth.header, *frame.color));
-    depth_.Publish(codec::Encode(frame.depth));
+    const FrameHeader& header = frame.depth.header;
+    try {
+      if (frame.color) color_.Publish(codec::Encode(header, *frame.color));
+    } catch (const codec::MessageTooLarge& error) {
+      bus_.Fail(header.frame + ": " + error.what());
+    }
+    depth_.Publish(Encode(frame.depth));
+  }
+
+  // A frame that does not fit on the wire becomes one that says so, and gets its result as others.
+  depth_frame_t Encode(const DepthFrame& frame) {
+    try {
+      return codec::Encode(frame);
+    } catch (const codec::MessageTooLarge& error) {
+      DepthFrame unsent{frame.header, {}, frame.X_WC};
+      unsent.header.error = error.what();
+      bus_.Fail(unsent.header.frame + ": " + unsent.header.error);
+      return codec::Encode(unsent);
+    }
   }
 
   runtime::Bus& bus_;

@@ -105,6 +105,7 @@ TEST_F(PcdFileTest, RefusesDamagedCompression) {
 TEST_F(PcdFileTest, RefusesWhatIsNoCloud) {
   EXPECT_EQ(ErrorOf(""), Path("cloud.pcd") + ": not a .pcd file: it has no DATA line");
   EXPECT_THAT(ErrorOf("this is not a cloud\n"), HasSubstr("line 'this' in its header"));
+  EXPECT_THAT(ErrorOf("\x7F\n"), HasSubstr("line '?' in its header"));
   EXPECT_THAT(ErrorOf("DATA ascii\n"), HasSubstr("a cloud without points"));
   EXPECT_THAT(ErrorOf(std::string(kHeader) + "WIDTH -1\n"), HasSubstr("WIDTH is '-1'"));
   EXPECT_THAT(ErrorOf(std::string(kHeader) + "WIDTH 1\nDATA zip\n"), HasSubstr("DATA is 'zip'"));
@@ -113,10 +114,10 @@ TEST_F(PcdFileTest, RefusesWhatIsNoCloud) {
 }
 
 TEST_F(PcdFileTest, RefusesMorePointsThanTheFileHolds) {
-  const std::string header = std::string(kHeader) + "WIDTH 8192\nHEIGHT 8192\nDATA ";
+  const std::string header = std::string(kHeader) + "WIDTH 4096\nHEIGHT 4096\nDATA ";
   EXPECT_THAT(ErrorOf(header + "binary\nabc"), HasSubstr("truncated"));
   EXPECT_THAT(ErrorOf(header + "ascii\n1 2 3\n"), HasSubstr("truncated"));
-  const std::string one_byte("\1\0\0\0\0\0\0\x30\0", 9);  // announces 805306368 bytes from one
+  const std::string one_byte("\1\0\0\0\0\0\0\x0C\0", 9);  // announces 201326592 bytes from one
   EXPECT_THAT(ErrorOf(header + "binary_compressed\n" + one_byte), HasSubstr("damaged"));
 }
 

@@ -1,15 +1,26 @@
 #include "modules/kinect_source/pcd_header.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <sstream>
 #include <stdexcept>
 
+#include "modules/geometry/image_limits.h"
+
 namespace declutter {
 namespace {
 
-constexpr int64_t kMaxSide = 8192;
-constexpr int64_t kMaxPoints = kMaxSide * kMaxSide;
+constexpr int64_t kMaxPoints = int64_t{kMaxImageSide_px} * kMaxImageSide_px;
 constexpr int64_t kMaxValuesPerPoint = 4096;
+
+// The beginning of a word of any file.
+std::string Printable(const std::string& word) {
+  std::string text = word.substr(0, 40);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
+  return text;
+}
 
 int64_t ParseNumber(const std::string& key, const std::string& word, int64_t min, int64_t max) {
   size_t num_parsed = 0;
@@ -19,7 +30,7 @@ int64_t ParseNumber(const std::string& key, const std::string& word, int64_t min
   } catch (const std::logic_error&) {  // no number, or none that fits
   }
   if (word.empty() || num_parsed != word.size() || number < min || number > max) {
-    throw std::runtime_error("not a .pcd file: " + key + " is '" + word + "'");
+    throw std::runtime_error("not a .pcd file: " + key + " is '" + Printable(word) + "'");
   }
   return number;
 }
@@ -100,21 +111,21 @@ PcdHeader ParsePcdHeader(const std::string& file) {
     } else if (key == "WIDTH") {
       header.width = static_cast<int>(ParseNumber(key, value, 0, kMaxPoints));
     } else if (key == "HEIGHT") {
-      header.height = static_cast<int>(ParseNumber(key, value, 0, kMaxSide));
+      header.height = static_cast<int>(ParseNumber(key, value, 0, kMaxImageSide_px));
     } else if (key == "DATA") {
       header.encoding = value;
       if (value != "ascii" && value != "binary" && value != "binary_compressed") {
-        throw std::runtime_error("not a .pcd file: DATA is '" + value + "'");
+        throw std::runtime_error("not a .pcd file: DATA is '" + Printable(value) + "'");
       }
     } else if (key != "VERSION" && key != "VIEWPOINT" && key != "POINTS") {
-      throw std::runtime_error("not a .pcd file: line '" + key.substr(0, 40) + "' in its header");
+      throw std::runtime_error("not a .pcd file: line '" + Printable(key) + "' in its header");
     }
   }
   header.header_bytes = lines.num_bytes();
   SetOffsets(&header);
   if (header.num_points() == 0) throw std::runtime_error("a cloud without points");
-  if (header.height > 1 && header.width > kMaxSide) {
-    throw std::runtime_error("a grid of points over 8192 wide");
+  if (header.height > 1 && header.width > kMaxImageSide_px) {
+    throw std::runtime_error("a grid of points over " + std::to_string(kMaxImageSide_px) + " wide");
   }
   return header;
 }

@@ -18,7 +18,6 @@ constexpr double kMaxQuaternionError = 0.01;
 
 std::vector<RecordingEntry> ListFrames(const KinectSourceConfig& config) {
   const fs::path input = config.input();
-  if (input.empty()) throw std::invalid_argument("input is not set: which recording to read?");
   std::error_code error;
   if (!fs::exists(input, error)) {
     throw std::invalid_argument(input.string() + ": no such file or folder");

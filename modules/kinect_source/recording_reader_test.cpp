@@ -154,11 +154,22 @@ TEST_F(RecordingReaderTest, ReportsWhatIsWrongInSceneJson) {
   EXPECT_EQ(error_for("{}"), "scene.json: width is missing");
   EXPECT_EQ(error_for(R"({"width": "3"})"), "scene.json: width is not a number");
   EXPECT_EQ(error_for(R"({"width": 2.5})"), "scene.json: width is not a whole number");
-  EXPECT_EQ(error_for(R"({"width": -3})"), "scene.json: width = -3 is out of range");
+  EXPECT_EQ(error_for(R"({"width": -3})"), "scene.json: width = -3 outside [1, 4096]");
   EXPECT_EQ(error_for(R"({"width": 3, "height": 2, "fx": 0})"),
-            "scene.json: fx = 0 is out of range");
+            "scene.json: fx = 0 outside [1, 1e+06]");
   EXPECT_EQ(error_for(R"({"width": 3, "height": 2, "fx": 1, "fy": 1, "cx": 1, "cy": 1})"),
             "scene.json: depth_scale_m is missing");
+  const std::string camera = R"({"width": 3, "height": 2, "fx": 1, "fy": 1, "cx": 1, "cy": 1, )";
+  EXPECT_EQ(error_for(camera + R"("depth_scale_m": -0.001})"),
+            "scene.json: depth_scale_m = -0.001 outside [1e-06, 1]");
+  EXPECT_THAT(error_for(camera + R"("depth_scale_m": NaN})"), HasSubstr("scene.json: not JSON"));
+}
+
+TEST_F(RecordingReaderTest, ReportsAFolderInPlaceOfAFile) {
+  WriteScene(folder_.path() / "a", 700);
+  std::filesystem::remove(folder_.path() / "a/scene.json");
+  std::filesystem::create_directory(folder_.path() / "a/scene.json");
+  EXPECT_EQ(ErrorIn(folder_ / "a"), "scene.json: Is a directory");
 }
 
 TEST_F(RecordingReaderTest, TakesADepthImageWithoutMeasurements) {
@@ -178,7 +189,6 @@ TEST_F(RecordingReaderTest, KeepsTheDepthWhenTheColourIsUnusable) {
 }
 
 TEST_F(RecordingReaderTest, RefusesAnInputWithNothingToRead) {
-  EXPECT_THAT(RefusalOf(""), HasSubstr("input is not set"));
   EXPECT_EQ(RefusalOf(folder_ / "none"), (folder_ / "none") + ": no such file or folder");
   WriteText(folder_.path() / "notes/readme.txt", "nothing here");
   EXPECT_THAT(RefusalOf(folder_ / "notes"), HasSubstr("notes: nothing to read"));

@@ -47,7 +47,6 @@ std::string AsFileName(const std::string& frame) {
 
 ObjectExporter::ObjectExporter(const ObjectExporterConfig& config)
     : output_(config.output()), pictures_(config.pictures()) {
-  if (output_.empty()) throw std::runtime_error("output is not set: which folder to write to?");
   std::error_code error;
   fs::create_directories(output_, error);
   if (!fs::is_directory(output_)) {

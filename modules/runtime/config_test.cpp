@@ -71,10 +71,11 @@ TEST(ParseConfig, ChecksNestedAndRepeatedFields) {
               HasSubstr("good.textproto:2:1: sizes_px = 101 outside (-inf, 100] px"));
 }
 
-TEST(ParseConfig, RefusesNan) {
+TEST(ParseConfig, RefusesWhatIsNotFinite) {
   EXPECT_EQ(ParseFault("distance_threshold_m: nan"),
             "good.textproto:1:1: distance_threshold_m = nan is not a number");
   EXPECT_EQ(ParseFault("weight: nan"), "good.textproto:1:1: weight = nan is not a number");
+  EXPECT_EQ(ParseFault("weight: -inf"), "good.textproto:1:1: weight = -inf is not finite");
 }
 
 TEST(ParseConfig, RefusesAWordThatIsNotAllowed) {

@@ -50,7 +50,8 @@ std::string CheckNumber(double value, const FieldDescriptor& field) {
   if (std::isnan(value)) return " is not a number";
   const bool inside = (!parameter.has_min() || value >= parameter.min()) &&
                       (!parameter.has_max() || value <= parameter.max());
-  return inside ? "" : " outside " + RangeText(field);
+  if (!inside) return " outside " + RangeText(field);
+  return std::isinf(value) ? " is not finite" : "";
 }
 
 std::string CheckString(const std::string& value, const FieldDescriptor& field) {
