@@ -5,11 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "tests/process/launched.h"
+#include "tests/process/graph_run.h"
 
 namespace declutter {
 namespace {
@@ -17,56 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
-// Standing apart from each other, seen whole.
-constexpr const char* kScene = R"(
-object { box { size_x_m: 0.16 size_y_m: 0.08 size_z_m: 0.2 } x_m: -0.12 y_m: 0.65 yaw_rad: 0.5 }
-object { cylinder { radius_m: 0.045 height_m: 0.15 } x_m: 0.12 y_m: 0.6 }
-)";
-
-std::string Program(const std::string& name) { return fs::path(LAUNCHER).parent_path() / name; }
-
-// The whole graph over scene folders, as a user runs it.
-class GraphTest : public testing::Test {
- protected:
-  std::string RenderScene(const std::string& name) {
-    const std::string scene = folder_.Write("scene.textproto", kScene);
-    const std::string path = folder_.Path("scenes/" + name);
-    EXPECT_EQ(Launched({Program("scene_renderer"), scene, path}, folder_).Wait().code, 0);
-    return path;
-  }
-
-  Outcome Run(const std::string& input, const std::string& output,
-              const std::vector<std::string>& options = {}) {
-    std::vector<std::string> arguments = {"run", std::string(CONFIG_FOLDER) + "/" + graph_, "--set",
-                                          "object_exporter.output=" + output};
-    if (!input.empty()) {
-      arguments.insert(arguments.end(), {"--set", "kinect_source.input=" + input});
-    }
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    return RunLauncher(arguments, folder_);
-  }
-
-  static std::vector<json> Lines(const std::string& output) {
-    std::vector<json> lines;
-    std::istringstream text(ReadFile(output + "/objects.jsonl"));
-    for (std::string line; std::getline(text, line);) lines.push_back(json::parse(line));
-    return lines;
-  }
-
-  static std::vector<std::string> Frames(const std::string& output) {
-    std::vector<std::string> frames;
-    for (const json& line : Lines(output)) frames.push_back(line.at("frame"));
-    return frames;
-  }
-
-  TemporaryFolder folder_;
-  std::string scenes_ = folder_.Path("scenes");
-  std::string output_ = folder_.Path("out");
-  std::string graph_ = "recordings.textproto";
-};
+using GraphTest = GraphRun;
 
 double Distance_m(const json& position, const json& other) {
   return std::hypot(position.at(0).get<double>() - other.at(0).get<double>(),
@@ -135,27 +85,6 @@ TEST_F(GraphTest, FindsThePlaneUnderTheObjects) {
   const json plane = Lines(output_).at(0).at("planes").at(0);
   EXPECT_LT(Distance_m(plane.at("normal"), truth.at("normal_cam")), 0.01);
   EXPECT_NEAR(plane.at("d"), truth.at("d"), 0.003);
-}
-
-TEST_F(GraphTest, GoesOnAfterAnUnreadableSceneAndEndsWithOne) {
-  RenderScene("a");
-  const std::string damaged = RenderScene("b");
-  RenderScene("c");
-  std::ofstream(damaged + "/depth.png") << "not an image";
-  EXPECT_EQ(Run(scenes_, output_).code, 1);
-  EXPECT_THAT(Frames(output_), ElementsAre("a", "b", "c"));
-  const std::vector<json> lines = Lines(output_);
-  EXPECT_THAT(lines[1].at("error").get<std::string>(), HasSubstr("depth.png"));
-  EXPECT_THAT(lines[1].at("objects"), IsEmpty());
-  EXPECT_FALSE(lines[0].contains("error"));
-  EXPECT_EQ(lines[0].at("objects").size(), 2u);
-  EXPECT_EQ(lines[2].at("objects"), lines[0].at("objects"));
-}
-
-TEST_F(GraphTest, EndsWithTwoWhenThereIsNothingToRead) {
-  EXPECT_EQ(Run(folder_.Path("no_such_folder"), output_).code, 2);
-  fs::create_directory(scenes_);
-  EXPECT_EQ(Run(scenes_, output_).code, 2);
 }
 
 TEST_F(GraphTest, WritesTheSameLinesForTheSameScenesAndForTheirLog) {
