@@ -82,6 +82,9 @@ std::optional<RecordedFrame> RecordingReader::Next() {
 
 // Results should not depend on where a recording lies.
 std::string RecordingReader::BelowInput(std::string text) const {
+  if (text.compare(0, input_.size() + 1, input_ + ":") == 0) {  // a single file
+    return fs::path(input_).filename().string() + text.substr(input_.size());
+  }
   const std::string prefix = input_.back() == '/' ? input_ : input_ + "/";
   if (text.compare(0, prefix.size(), prefix) == 0) text.erase(0, prefix.size());
   return text;

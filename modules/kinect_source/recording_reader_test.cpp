@@ -114,6 +114,11 @@ TEST_F(RecordingReaderTest, GoesOnAfterAnUnreadableScene) {
   EXPECT_EQ(frames[2].depth.header.error, "");
 }
 
+TEST_F(RecordingReaderTest, NamesASingleUnreadableFileWithoutItsFolder) {
+  WriteText(folder_.path() / "cloud.pcd", "");
+  EXPECT_EQ(ErrorIn(folder_ / "cloud.pcd"), "cloud.pcd: not a .pcd file: it has no DATA line");
+}
+
 TEST_F(RecordingReaderTest, ReportsASceneWithoutItsFiles) {
   WriteDepth3x2(folder_.path() / "a/depth.png", 700);
   EXPECT_EQ(ErrorIn(folder_ / "a"), "scene.json: No such file or directory");
