@@ -94,30 +94,6 @@ Rectangle Around(const TopPatch& patch, const Eigen::Vector2f& axis) {
   return r;
 }
 
-// Direction of the smallest rectangle around the hull.
-Eigen::Vector2f MinimumAreaAxis(const TopPatch& patch) {
-  Eigen::Vector2f best = Eigen::Vector2f::UnitX();
-  float best_area = std::numeric_limits<float>::max();
-  for (int degree = 0; degree < 90; ++degree) {
-    const float angle = static_cast<float>(degree * M_PI / 180);
-    const Eigen::Vector2f axis(std::cos(angle), std::sin(angle));
-    const Eigen::Vector2f other(-axis.y(), axis.x());
-    Eigen::Vector2f low = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
-    Eigen::Vector2f high = -low;
-    for (const Eigen::Vector2f& p : patch.hull) {
-      const Eigen::Vector2f q(axis.dot(p), other.dot(p));
-      low = low.cwiseMin(q);
-      high = high.cwiseMax(q);
-    }
-    const float area = (high - low).prod();
-    if (area < best_area) {
-      best_area = area;
-      best = axis;
-    }
-  }
-  return best;
-}
-
 bool IsAttached(const Face& face, const TopPatch& patch) {
   const LineModel& line = face.model;
   if (std::abs(line.z_max - patch.height) > kTopTolerance) return false;

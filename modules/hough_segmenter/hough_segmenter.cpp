@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "modules/hough_segmenter/lying_cylinders.h"
 #include "modules/hough_segmenter/solid_completion.h"
 
 namespace declutter {
@@ -44,9 +45,14 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
                                    kMaxTopStep, kMinTopPoints)};
   MeasureExtents(points, &surfaces);
 
-  list.hypotheses = CompleteBoxes(config_, surfaces);
-  const std::vector<Hypothesis> cylinders = CompleteCylinders(config_, surfaces);
-  list.hypotheses.insert(list.hypotheses.end(), cylinders.begin(), cylinders.end());
+  const auto propose = [&list](const std::vector<Hypothesis>& hypotheses) {
+    list.hypotheses.insert(list.hypotheses.end(), hypotheses.begin(), hypotheses.end());
+  };
+  propose(CompleteBoxes(config_, surfaces));
+  propose(CompleteCylinders(config_, surfaces));
+  if (list.mode == FeatureMode::kDefault) {
+    propose(FindLyingCylinders(config_, points, surfaces.tops, config_.seed()));
+  }
   const Eigen::Isometry3d X_CT = X_TC.inverse();
   for (Hypothesis& hypothesis : list.hypotheses) {
     hypothesis.solid.X_CO = X_CT * hypothesis.solid.X_CO;

@@ -14,7 +14,6 @@ constexpr size_t kMaxScoredCells = 400;   // cells that decide between samples
 constexpr float kMinBaseline = 0.008f;    // [m] of the two cells of a sample
 constexpr int kMaxDraws = 12;             // of a partner, before a sample is given up
 constexpr float kMaxRadiusStep = 0.003f;  // [m] between the lower and upper part of a cylinder
-constexpr float kMinKappaTimesRadius = 0.3f;  // median over the inliers of a circle
 
 LineModel LineThrough(const SideCell& a, const SideCell& b) {
   LineModel line;
@@ -254,7 +253,7 @@ std::optional<CircleFit> SideFitter::Refit(const CircleModel& model,
   if (fit.num_points < min_points) return std::nullopt;
   // kappa underestimates 1 / r near outlines, by up to a factor of two at the median.
   if (mode_ == FeatureMode::kDefault &&
-      MedianKappa(cells_, fit.inliers) * fit.model.r < kMinKappaTimesRadius) {
+      MedianKappa(cells_, fit.inliers) * fit.model.r < config_.min_kappa_radius()) {
     return std::nullopt;
   }
   SetHeights(cells_, &fit);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "modules/geometry/convex_hull.h"
 #include "modules/geometry/image_components.h"
@@ -54,6 +55,29 @@ float Median(std::vector<float> values) {
 }
 
 }  // namespace
+
+Eigen::Vector2f MinimumAreaAxis(const TopPatch& patch) {
+  Eigen::Vector2f best = Eigen::Vector2f::UnitX();
+  float best_area = std::numeric_limits<float>::max();
+  for (int degree = 0; degree < 90; ++degree) {
+    const float angle = static_cast<float>(degree * M_PI / 180);
+    const Eigen::Vector2f axis(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2f other(-axis.y(), axis.x());
+    Eigen::Vector2f low = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
+    Eigen::Vector2f high = -low;
+    for (const Eigen::Vector2f& p : patch.hull) {
+      const Eigen::Vector2f q(axis.dot(p), other.dot(p));
+      low = low.cwiseMin(q);
+      high = high.cwiseMax(q);
+    }
+    const float area = (high - low).prod();
+    if (area < best_area) {
+      best_area = area;
+      best = axis;
+    }
+  }
+  return best;
+}
 
 std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points, int width, int height,
                                      int thinning, float max_step_m, int min_points) {

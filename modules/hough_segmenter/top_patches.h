@@ -20,4 +20,8 @@ struct TopPatch {
 std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points, int width, int height,
                                      int thinning, float max_step_m, int min_points);
 
+// Direction of a side of the smallest rectangle around the hull, a unit vector of the xy plane of
+// T.
+Eigen::Vector2f MinimumAreaAxis(const TopPatch& patch);
+
 }  // namespace declutter

@@ -1,6 +1,7 @@
 #include "modules/model_verifier/support_settling.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "modules/model_verifier/ray_casting.h"
 
@@ -12,12 +13,19 @@ constexpr double kMinFootprint = 0.05;       // share over an object that can ca
 constexpr double kFullFootprint = 0.30;      // share over an object that must carry it
 constexpr double kMaxNewViolating = 0.1;     // of the explained pixels, by extending a solid down
 
-// Heights of the ends of a solid above the support plane [m].
+// [m] half the vertical extent of a solid in any pose.
+double HalfExtent(const Solid& solid, const Plane& support) {
+  const Eigen::Vector3d up_O = solid.X_CO.linear().transpose() * support.normal;
+  if (solid.shape == Shape::kBox) return 0.5 * up_O.cwiseAbs().dot(solid.size);
+  return 0.5 * std::abs(up_O.z()) * solid.height() + up_O.head<2>().norm() * solid.radius();
+}
+
+// Heights of the lowest and highest point of a solid above the support plane [m].
 double Bottom(const Solid& solid, const Plane& support) {
-  return support.Height(solid.X_CO.translation()) - 0.5 * solid.height();
+  return support.Height(solid.X_CO.translation()) - HalfExtent(solid, support);
 }
 double Top(const Solid& solid, const Plane& support) {
-  return support.Height(solid.X_CO.translation()) + 0.5 * solid.height();
+  return support.Height(solid.X_CO.translation()) + HalfExtent(solid, support);
 }
 
 // Share of the upper solid's footprint that lies over the lower solid.
