@@ -7,7 +7,6 @@
 #include <iterator>
 #include <memory>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "launcher/find_program.h"
@@ -23,6 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 using google::protobuf::TextFormat;
 using Config = std::unique_ptr<google::protobuf::Message>;
+
+// Nothing when path cannot be read; a folder opens, but cannot.
+std::optional<std::string> ReadText(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::error_code ignored;
+  if (!file || fs::is_directory(path, ignored)) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(file), {}};
+}
 
 // Loads one graph, step by step; each step needs those before it to be without fault.
 class GraphLoader {
@@ -66,13 +73,12 @@ class GraphLoader {
 };
 
 bool GraphLoader::ReadFile() {
-  std::ifstream file(path_, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) {
+  const std::optional<std::string> text = ReadText(path_);
+  if (!text) {
     Add(path_ + ":1:1", "cannot be read");
     return false;
   }
-  text_ = std::make_unique<GraphText>(text, path_);
+  text_ = std::make_unique<GraphText>(*text, path_);
   if (!text_->ReadModules(faults_)) return false;
   if (num_modules() == 0) Add(path_ + ":1:1", "no module");
   return faults_->empty();
@@ -126,14 +132,13 @@ bool GraphLoader::FindPrograms() {
 void GraphLoader::MergeConfigFile(int i, google::protobuf::Message* config) {
   if (!module(i).has_config_file()) return;
   const std::string path = PathFromGraph(module(i).config_file());
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) {
+  const std::optional<std::string> text = ReadText(path);
+  if (!text) {
     Add(text_->Where(i, "config_file"), path + ": cannot be read");
     return;
   }
   try {
-    runtime::ParseConfig(text, path, config);
+    runtime::ParseConfig(*text, path, config);
   } catch (const runtime::ConfigFileError& error) {
     Add("", error.what());  // names its place itself
   }

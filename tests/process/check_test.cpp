@@ -39,6 +39,9 @@ TEST_F(CheckTest, NamesThePlaceOfAFileThatCannotBeRead) {
   const Outcome outcome = Check(folder_.Path("missing"));
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.err, folder_.Path("missing") + ":1:1: cannot be read\n");
+  const Outcome folder = Check(folder_.Path("."));
+  EXPECT_EQ(folder.code, 2);
+  EXPECT_EQ(folder.err, folder_.Path(".") + ":1:1: cannot be read\n");
 }
 
 TEST_F(CheckTest, NamesThePlaceOfASyntaxError) {
@@ -69,6 +72,11 @@ TEST_F(CheckTest, NamesThePlaceInAParameterFile) {
   const Outcome outcome = Check(FakeGraph(folder_, "config_file: \"source.textproto\"", ""));
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.err, StartsWith(folder_.Path("source.textproto") + ":2:13: "));
+  const std::string graph = FakeGraph(folder_, "config_file: \".\"", "");
+  const Outcome folder = Check(graph);
+  EXPECT_EQ(folder.code, 2);
+  EXPECT_THAT(folder.err, StartsWith(graph + ":3:1: "));
+  EXPECT_THAT(folder.err, HasSubstr("cannot be read"));
 }
 
 TEST_F(CheckTest, RefusesParametersOfAnotherProgram) {
