@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <map>
 
 #include "tests/process/fake_graph.h"
@@ -191,8 +192,13 @@ TEST_F(RunTest, FailsWhenTheLogCannotBeWritten) {
 
 TEST_F(RunTest, MakesItsOwnNetworkWhereThereIsNoMulticast) {
   const std::string graph = FakeGraph(folder_, "", "");
-  const auto leave_network = [] {
-    if (unshare(CLONE_NEWNET) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) _exit(99);
+  const auto leave_network = [uid = getuid(), gid = getgid()] {
+    if (unshare(CLONE_NEWNET) == 0) return;
+    if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) _exit(99);
+    // Only a user who has a number in this namespace may open the next one.
+    std::ofstream("/proc/self/setgroups") << "deny";
+    std::ofstream("/proc/self/uid_map") << uid << " " << uid << " 1";
+    std::ofstream("/proc/self/gid_map") << gid << " " << gid << " 1";
   };
   Launched launcher(Command(graph), folder_, leave_network);
   const Outcome outcome = launcher.Wait();
