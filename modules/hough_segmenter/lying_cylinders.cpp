@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "modules/hough_segmenter/quantile.h"
 #include "modules/hough_segmenter/side_voting.h"
 
 namespace declutter {
@@ -97,10 +98,8 @@ void MeasureEnds(const std::vector<TablePoint>& points_L, CircleModel* circle) {
     }
   }
   if (along.size() < 20) return;
-  std::sort(along.begin(), along.end());
-  const auto last = static_cast<double>(along.size() - 1);
-  circle->z_min = along[static_cast<size_t>(0.005 * last)];
-  circle->z_max = along[static_cast<size_t>(0.995 * last)];
+  circle->z_min = Quantile(&along, 0.005);
+  circle->z_max = Quantile(&along, 0.995);
 }
 
 // Two visible parts of one cylinder with an occluder between them, as one; nothing when they are

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/hough_segmenter/quantile.h"
 #include "modules/hough_segmenter/solid_completion.h"
 
 namespace declutter {
@@ -10,13 +11,6 @@ constexpr float kMaxDistance = 0.004f;   // [m] of a point from the surface it i
 constexpr float kMargin = 0.006f;        // [m] around the extent found on cells
 constexpr float kHeightMargin = 0.014f;  // [m] half a cell more
 constexpr float kMinCos = 0.7f;          // normals bend near outlines
-
-// Value below which `fraction` of the values lie.
-float Quantile(std::vector<float>* values, double fraction) {
-  const auto rank = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values->size() - 1));
-  std::nth_element(values->begin(), values->begin() + rank, values->end());
-  return (*values)[static_cast<size_t>(rank)];
-}
 
 void Measure(const std::vector<TablePoint>& points, Face* face) {
   LineModel& line = face->model;

@@ -1,5 +1,7 @@
 #include "modules/hough_segmenter/table_points.h"
 
+#include "modules/geometry/sensor_noise.h"
+
 namespace declutter {
 
 std::vector<TablePoint> TablePoints(const Tabletop& tabletop, const FeatureCloud& features,

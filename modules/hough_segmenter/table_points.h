@@ -27,10 +27,6 @@ struct TablePoint {
   bool is_side() const { return n_T.z() < 0.50f && n_T.z() > -0.50f; }
 };
 
-// [m] standard deviation of a measurement at depth z: 0.7 counts of disparity of a Kinect, K / z
-// counts with K = 347 m, 2 mm at 1 m.
-inline float MeasurementSigma(float z) { return 0.002f * z * z; }
-
 // All points of the cloud with a known normal, in T; X_TC is the pose of the camera in T.
 std::vector<TablePoint> TablePoints(const Tabletop& tabletop, const FeatureCloud& features,
                                     const Eigen::Isometry3d& X_TC);

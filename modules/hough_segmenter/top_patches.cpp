@@ -6,6 +6,7 @@
 
 #include "modules/geometry/convex_hull.h"
 #include "modules/geometry/image_components.h"
+#include "modules/hough_segmenter/quantile.h"
 
 namespace declutter {
 namespace {
@@ -46,12 +47,6 @@ void GrowOverRims(const std::vector<uint8_t>& is_point, const std::vector<float>
       height_inside[i] = height_inside[j];
     }
   }
-}
-
-float Median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -114,7 +109,7 @@ std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points, int 
   std::vector<TopPatch> found;
   for (size_t i = 0; i < patches.size(); ++i) {
     if (patches[i].points.empty()) continue;
-    patches[i].height = Median(std::move(patch_heights[i]));
+    patches[i].height = Quantile(&patch_heights[i], 0.5);
     patches[i].hull = Hull(patches[i].points);
     if (patches[i].hull.size() >= 3) found.push_back(std::move(patches[i]));
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "modules/geometry/sensor_noise.h"
+
 namespace declutter {
 namespace {
 
@@ -110,8 +112,6 @@ std::optional<Eigen::Vector3d> SolidCaster::NormalAt(const Eigen::Vector3d& p_C,
   }
   return X_OC_.linear().transpose() * n;
 }
-
-double MeasurementSigma(double z) { return 0.002 * z * z; }
 
 double SurfaceTolerance(double z) { return std::max(0.005, 3 * MeasurementSigma(z)); }
 

@@ -73,8 +73,4 @@ RayEvidence CastRays(const Solid& solid, const DepthImage& image, const NormalIm
 // deviations of the sensor noise.
 double SurfaceTolerance(double z);
 
-// [m] standard deviation of a measurement at depth z along its ray: 0.7 counts of disparity of a
-// Kinect, K / z counts with K = 347 m.
-double MeasurementSigma(double z);
-
 }  // namespace declutter

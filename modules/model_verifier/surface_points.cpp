@@ -1,5 +1,6 @@
 #include "modules/model_verifier/surface_points.h"
 
+#include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/ray_casting.h"
 
 namespace declutter {

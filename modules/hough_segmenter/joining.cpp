@@ -1,0 +1,67 @@
+#include "modules/hough_segmenter/joining.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "modules/hough_segmenter/rectangle.h"
+
+namespace declutter {
+namespace {
+
+constexpr float kSameHeight = 0.008f;  // [m] between the parts of one top face
+
+// Faces on one line with a gap between them, as an occluder in front leaves them, as one.
+std::optional<Face> Join(const Face& a, const Face& b, float max_extent) {
+  const LineModel& f = a.model;
+  const LineModel& g = b.model;
+  if (f.n.dot(g.n) < 0.995f || std::abs(f.z_max - g.z_max) > kTopTolerance) return std::nullopt;
+  const Eigen::Vector2f p = g.PointAt(0.5f * (g.s_min + g.s_max));
+  if (std::abs(f.n.dot(p) - f.rho) > 0.01f) return std::nullopt;
+  Face joined = a;
+  const Eigen::Vector2f q0 = g.PointAt(g.s_min);
+  const Eigen::Vector2f q1 = g.PointAt(g.s_max);
+  LineModel& line = joined.model;
+  line.n = (static_cast<float>(a.num_points) * f.n + static_cast<float>(b.num_points) * g.n)
+               .normalized();
+  const Eigen::Vector2f t = line.tangent();
+  const Eigen::Vector2f p0 = f.PointAt(f.s_min);
+  const Eigen::Vector2f p1 = f.PointAt(f.s_max);
+  line.rho = 0.25f * line.n.dot(p0 + p1 + q0 + q1);
+  line.s_min = std::min({t.dot(p0), t.dot(q0)});
+  line.s_max = std::max({t.dot(p1), t.dot(q1)});
+  line.z_min = std::min(f.z_min, g.z_min);
+  line.z_max = std::max(f.z_max, g.z_max);
+  if (line.length() > max_extent) return std::nullopt;
+  joined.num_points += b.num_points;
+  joined.num_votes += b.num_votes;
+  return joined;
+}
+
+}  // namespace
+
+std::vector<Face> WithJoinedFaces(const std::vector<Face>& faces, float max_extent) {
+  std::vector<Face> all = faces;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    for (size_t j = i + 1; j < faces.size(); ++j) {
+      if (const auto joined = Join(faces[i], faces[j], max_extent)) all.push_back(*joined);
+    }
+  }
+  return all;
+}
+
+std::vector<TopPatch> WithJoinedPatches(const std::vector<TopPatch>& tops) {
+  std::vector<TopPatch> all = tops;
+  for (size_t i = 0; i < tops.size(); ++i) {
+    for (size_t j = i + 1; j < tops.size(); ++j) {
+      if (std::abs(tops[i].height - tops[j].height) > kSameHeight) continue;
+      TopPatch joined = tops[i];
+      joined.points.insert(joined.points.end(), tops[j].points.begin(), tops[j].points.end());
+      joined.hull.insert(joined.hull.end(), tops[j].hull.begin(), tops[j].hull.end());
+      all.push_back(std::move(joined));
+    }
+  }
+  return all;
+}
+
+}  // namespace declutter
