@@ -9,11 +9,12 @@
 namespace declutter {
 namespace {
 
-constexpr float kBucketSide = 0.05f;      // [m] squares in which the partner of a sample is drawn
-constexpr size_t kMaxScoredCells = 400;   // cells that decide between samples
-constexpr float kMinBaseline = 0.008f;    // [m] of the two cells of a sample
-constexpr int kMaxDraws = 12;             // of a partner, before a sample is given up
-constexpr float kMaxRadiusStep = 0.003f;  // [m] between the lower and upper part of a cylinder
+constexpr float kBucketSide = 0.05f;       // [m] squares in which the partner of a sample is drawn
+constexpr size_t kMaxScoredCells = 400;    // cells that decide between samples
+constexpr float kMinBaseline = 0.008f;     // [m] of the two cells of a sample
+constexpr int kMaxDraws = 12;              // of a partner, before a sample is given up
+constexpr float kMinKappaLength = 0.045f;  // [m] of a line whose curvature says something
+constexpr float kMaxRadiusStep = 0.003f;   // [m] between the lower and upper part of a cylinder
 
 LineModel LineThrough(const SideCell& a, const SideCell& b) {
   LineModel line;
@@ -228,11 +229,12 @@ std::optional<LineFit> SideFitter::Refit(const LineModel& model,
   RefitModel(cells_, fit.inliers, &fit.model);
   fit = Inliers(fit.model, is_free);
   if (fit.num_points < min_points) return std::nullopt;
-  if (mode_ == FeatureMode::kDefault &&
+  SetExtent(cells_, &fit);
+  // Within the reach of the features from its outlines a narrow face looks round.
+  if (mode_ == FeatureMode::kDefault && fit.model.length() > kMinKappaLength &&
       MedianKappa(cells_, fit.inliers) > config_.max_kappa_of_flat()) {
     return std::nullopt;
   }
-  SetExtent(cells_, &fit);
   for (int i : fit.inliers) {
     const SideCell& cell = cells_[static_cast<size_t>(i)];
     fit.support += cell.weight * Agreement(cell, fit.model);
