@@ -7,44 +7,9 @@
 
 #include "modules/geometry/feature_cloud.h"
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
-#include "modules/hough_segmenter/side_cells.h"
+#include "modules/hough_segmenter/model_fits.h"
 
 namespace declutter {
-
-// A vertical face seen from above: the part [s_min, s_max] of the line n . p = rho, at heights
-// [z_min, z_max]. All in T.
-struct LineModel {
-  Eigen::Vector2f n = Eigen::Vector2f::UnitX();  // unit, outward
-  float rho = 0;                                 // [m]
-  float s_min = 0;                               // [m] along tangent()
-  float s_max = 0;                               // [m]
-  float z_min = 0;                               // [m]
-  float z_max = 0;                               // [m]
-
-  Eigen::Vector2f tangent() const { return {-n.y(), n.x()}; }
-  Eigen::Vector2f PointAt(float s) const { return rho * n + s * tangent(); }
-  float length() const { return s_max - s_min; }
-};
-
-// A vertical cylinder seen from above, at heights [z_min, z_max]. All in T.
-struct CircleModel {
-  Eigen::Vector2f c = Eigen::Vector2f::Zero();  // [m]
-  float r = 0;                                  // [m]
-  float z_min = 0;                              // [m]
-  float z_max = 0;                              // [m]
-  float arc = 0;                                // [rad] part of the circle that was seen
-};
-
-// A model with the cells that support it.
-template <typename Model>
-struct Fit {
-  Model model;
-  float support = 0;         // [px] weighted by how well each inlier fits
-  float num_points = 0;      // [px] in all inliers
-  std::vector<int> inliers;  // indices of cells, ascending
-};
-using LineFit = Fit<LineModel>;
-using CircleFit = Fit<CircleModel>;
 
 // RANSAC fits of 2D lines and circles to the side cells of one component (paper, section 4), with
 // the inlier filters of section 5.
@@ -68,8 +33,22 @@ class SideFitter {
   std::optional<std::pair<int, int>> SamplePair(const std::vector<char>& is_free);
   void Subsample(const std::vector<char>& is_free);
 
-  LineFit Inliers(const LineModel& model, const std::vector<char>& is_free) const;
-  CircleFit Inliers(const CircleModel& model, const std::vector<char>& is_free) const;
+  // The best supported of num_samples models that sample() proposes, or nothing.
+  template <typename Model, typename Sample>
+  std::optional<Model> BestSample(Sample sample) const;
+
+  // The filtered free inliers of a model.
+  template <typename Model>
+  Fit<Model> Inliers(const Model& model, const std::vector<char>& is_free) const;
+  void Filter(LineFit* fit) const;
+  void Filter(CircleFit* fit) const;
+
+  // Inliers, least squares and inliers again; nothing when fewer than N points are left, or none of
+  // a model that cannot be.
+  template <typename Model>
+  std::optional<Fit<Model>> RefitTo(const Model& model, const std::vector<char>& is_free) const;
+  bool IsPossible(const LineFit& fit) const;
+  bool IsPossible(const CircleFit& fit) const;
 
   // How well a cell agrees with a model: 0 no inlier, 1 exactly on it with the same normal.
   float Agreement(const SideCell& cell, const LineModel& model) const;

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "modules/hough_segmenter/side_cells.h"
+
+namespace declutter {
+
+// A vertical face seen from above: the part [s_min, s_max] of the line n . p = rho, at heights
+// [z_min, z_max]. All in T.
+struct LineModel {
+  Eigen::Vector2f n = Eigen::Vector2f::UnitX();  // unit, outward
+  float rho = 0;                                 // [m]
+  float s_min = 0;                               // [m] along tangent()
+  float s_max = 0;                               // [m]
+  float z_min = 0;                               // [m]
+  float z_max = 0;                               // [m]
+
+  Eigen::Vector2f tangent() const { return {-n.y(), n.x()}; }
+  Eigen::Vector2f PointAt(float s) const { return rho * n + s * tangent(); }
+  float length() const { return s_max - s_min; }
+};
+
+// A vertical cylinder seen from above, at heights [z_min, z_max]. All in T.
+struct CircleModel {
+  Eigen::Vector2f c = Eigen::Vector2f::Zero();  // [m]
+  float r = 0;                                  // [m]
+  float z_min = 0;                              // [m]
+  float z_max = 0;                              // [m]
+  float arc = 0;                                // [rad] part of the circle that was seen
+};
+
+// A model with the cells that support it.
+template <typename Model>
+struct Fit {
+  Model model;
+  float support = 0;         // [px] weighted by how well each inlier fits
+  float num_points = 0;      // [px] in all inliers
+  std::vector<int> inliers;  // indices of cells, ascending
+};
+using LineFit = Fit<LineModel>;
+using CircleFit = Fit<CircleModel>;
+
+// The line through two cells, outward on the side of their normals.
+LineModel LineThrough(const SideCell& a, const SideCell& b);
+
+// The circle around where the normals of two cells meet, going inward. Nothing when they are almost
+// parallel or meet outside.
+std::optional<CircleModel> CircleThrough(const SideCell& a, const SideCell& b);
+
+// Least squares on the inliers of the fit, weighted by points and noise: total least squares for
+// the line, whose normal keeps its side, Gauss-Newton on the distances for the circle.
+void FitToInliers(const std::vector<SideCell>& cells, LineFit* fit);
+void FitToInliers(const std::vector<SideCell>& cells, CircleFit* fit);
+
+// Sets extent and heights of the model from the inliers, of which there must be some.
+void SetExtent(const std::vector<SideCell>& cells, LineFit* fit);
+void SetExtent(const std::vector<SideCell>& cells, CircleFit* fit);
+
+}  // namespace declutter
