@@ -55,9 +55,9 @@ std::vector<Bytes> NumbersOf(object_list_t& m) {
 }
 
 std::vector<Bytes> NumbersOf(depth_frame_t& m) {
-  return {BytesOf(m.utime), BytesOf(m.width),    BytesOf(m.height), BytesOf(m.fx),
-          BytesOf(m.cx),    BytesOf(m.q_WC),     BytesOf(m.p_WC),   BytesOf(m.depth_scale_m),
-          BytesOf(m.data),  BytesOf(m.num_bytes)};
+  return {BytesOf(m.utime), BytesOf(m.width),     BytesOf(m.height),     BytesOf(m.fx),
+          BytesOf(m.cx),    BytesOf(m.q_WC),      BytesOf(m.p_WC),       BytesOf(m.depth_scale_m),
+          BytesOf(m.data),  BytesOf(m.num_bytes), BytesOf(m.decimation), BytesOf(m.sensor_width)};
 }
 
 std::vector<Bytes> NumbersOf(tabletop_t& m) {

@@ -33,6 +33,41 @@ void ExpectSame(const DepthFrame& a, const DepthFrame& b) {
   EXPECT_EQ(a.image.depth_scale_m, b.image.depth_scale_m);
   EXPECT_TRUE(a.image.counts == b.image.counts);
   EXPECT_TRUE(a.X_WC.isApprox(b.X_WC, 1e-12));
+  EXPECT_EQ(a.decimation.has_value(), b.decimation.has_value());
+}
+
+// An image whose counts no coding makes smaller.
+DepthFrame NoisyFrame(int width, int height, uint16_t amplitude) {
+  DepthFrame frame = TestDepthFrame();
+  frame.image.camera = {width, height, 912, 910, 641, 361};
+  frame.image.counts.resize(static_cast<size_t>(frame.image.camera.num_pixels()));
+  std::mt19937 random(3);
+  for (uint16_t& count : frame.image.counts) {
+    count = static_cast<uint16_t>(7000 + random() % amplitude);
+  }
+  return frame;
+}
+
+// Exactly every k-th column and row of sent.
+void ExpectDecimated(const DepthFrame& received, const DepthFrame& sent, int k) {
+  const PinholeCamera &kept = received.image.camera, &sensor = sent.image.camera;
+  ASSERT_TRUE(received.decimation.has_value());
+  EXPECT_EQ(received.decimation->step, k);
+  EXPECT_EQ(received.decimation->sensor_width, sensor.width);
+  EXPECT_EQ(received.decimation->sensor_height, sensor.height);
+  ASSERT_EQ(kept.width, (sensor.width + k - 1) / k);
+  ASSERT_EQ(kept.height, (sensor.height + k - 1) / k);
+  EXPECT_DOUBLE_EQ(kept.fx, sensor.fx / k);
+  EXPECT_DOUBLE_EQ(kept.fy, sensor.fy / k);
+  EXPECT_DOUBLE_EQ(kept.cx, sensor.cx / k);
+  EXPECT_DOUBLE_EQ(kept.cy, sensor.cy / k);
+  int num_wrong = 0;
+  for (int v = 0; v < kept.height; ++v) {
+    for (int u = 0; u < kept.width; ++u) {
+      num_wrong += received.image.CountAt(u, v) != sent.image.CountAt(k * u, k * v);
+    }
+  }
+  EXPECT_EQ(num_wrong, 0);
 }
 
 TEST(DepthFrameCodec, RestoresAFrame) {
@@ -63,10 +98,38 @@ TEST(DepthFrameCodec, RestoresAFrameWithAnError) {
 }
 
 TEST(DepthFrameCodec, RefusesToEncodeWhatDoesNotFit) {
-  std::mt19937 random(3);
-  DepthFrame frame = LargeFrame(0);
-  for (uint16_t& count : frame.image.counts) count = static_cast<uint16_t>(random());
-  EXPECT_THROW(Encode(frame), MessageTooLarge);
+  EXPECT_THROW(Encode(NoisyFrame(1600, 1200, 50'000)), MessageTooLarge);
+}
+
+TEST(DepthFrameCodec, KeepsEverySecondRowAndColumnOfAnImageThatDoesNotFit) {
+  const DepthFrame frame = NoisyFrame(1280, 720, 30);
+  ExpectDecimated(Decode(Encode(frame)), frame, 2);
+  const DepthFrame small = NoisyFrame(640, 480, 5000);
+  ExpectDecimated(Decode(Encode(small)), small, 2);
+}
+
+TEST(DepthFrameCodec, KeepsFewerRowsAndColumnsUntilTheImageFits) {
+  const DepthFrame frame = NoisyFrame(1279, 719, 1500);
+  const depth_frame_t message = Encode(frame);
+  EXPECT_LE(message.getEncodedSize(), kMaxMessageBytes);
+  ExpectDecimated(Decode(message), frame, 3);
+}
+
+TEST(DepthFrameCodec, SendsADecimatedImageOnAsItIs) {
+  const DepthFrame frame = NoisyFrame(1279, 719, 1500);
+  ExpectDecimated(Decode(Encode(Decode(Encode(frame)))), frame, 3);
+}
+
+TEST(DepthFrameCodec, RestoresTheSensorsCamera) {
+  const DepthFrame frame = NoisyFrame(1279, 719, 1500);
+  const DepthFrame kept = Decode(Encode(frame));
+  const PinholeCamera camera = kept.decimation.value().SensorCamera(kept.image.camera);
+  EXPECT_EQ(camera.width, 1279);
+  EXPECT_EQ(camera.height, 719);
+  EXPECT_DOUBLE_EQ(camera.fx, 912);
+  EXPECT_DOUBLE_EQ(camera.fy, 910);
+  EXPECT_DOUBLE_EQ(camera.cx, 641);
+  EXPECT_DOUBLE_EQ(camera.cy, 361);
 }
 
 TEST(DepthFrameCodec, RefusesToEncodeAnImageThatIsNotItsCameras) {
@@ -75,6 +138,8 @@ TEST(DepthFrameCodec, RefusesToEncodeAnImageThatIsNotItsCameras) {
   EXPECT_THROW(Encode(frame), std::logic_error);
   EXPECT_THROW(Encode(DepthFrame{ErrorHeader(), TestDepthImage(), TestPose()}), std::logic_error);
   EXPECT_THROW(Encode(DepthFrame{TestHeader(), {}, TestPose()}), std::logic_error);
+  EXPECT_THROW(Encode(DepthFrame{TestHeader(), TestDepthImage(), TestPose(), Decimation{2, 9, 12}}),
+               std::logic_error);
 }
 
 // What Decode says when one thing is changed in a good message.
@@ -112,6 +177,16 @@ TEST(DepthFrameCodec, RefusesCamerasThatDoNotProject) {
   EXPECT_THAT(RefusalAfter([](auto& m) { m.fx = kNan; }), StartsWith("fx = nan: "));
   EXPECT_THAT(RefusalAfter([](auto& m) { m.cx = kNan; }), StartsWith("cx = nan: "));
   EXPECT_THAT(RefusalAfter([](auto& m) { m.cy = 1 / 0.0; }), StartsWith("cy = inf: "));
+}
+
+TEST(DepthFrameCodec, RefusesDecimationsThatDoNotGiveTheImage) {
+  EXPECT_THAT(RefusalAfter([](auto& m) { m.decimation = 0; }), StartsWith("decimation = 0: "));
+  EXPECT_THAT(RefusalAfter([](auto& m) { m.decimation = 17; }), StartsWith("decimation = 17: "));
+  EXPECT_THAT(RefusalAfter([](auto& m) { m.decimation = 2; }), StartsWith("sensor_width = 8: "));
+  EXPECT_THAT(RefusalAfter([](auto& m) { m.sensor_height = 7; }),
+              StartsWith("sensor_height = 7: "));
+  EXPECT_THAT(RefusalAfter([](auto& m) { m.sensor_width = 2'147'483'647; }),
+              StartsWith("sensor_width = 2147483647: "));
 }
 
 TEST(DepthFrameCodec, RefusesDepthScalesOutsideZeroToOneMetre) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,11 +53,26 @@ struct FrameHeader {
   std::string error;  // why the source has no image for this frame; empty when it has one
 };
 
+// What is left of a larger image when only the pixels with u % step = v % step = 0 are kept: pixel
+// (u, v) is pixel (step u, step v) of the sensor's image.
+struct Decimation {
+  int step = 1;
+  int sensor_width = 0;   // [px]
+  int sensor_height = 0;  // [px]
+
+  // The camera of the sensor's image, from that of the kept one.
+  PinholeCamera SensorCamera(const PinholeCamera& kept) const {
+    return {sensor_width,   sensor_height,  step * kept.fx,
+            step * kept.fy, step * kept.cx, step * kept.cy};
+  }
+};
+
 // A depth image with its time and the pose X_WC of the camera in the world.
 struct DepthFrame {
   FrameHeader header;
   DepthImage image;  // empty when header.error is set
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+  std::optional<Decimation> decimation = std::nullopt;  // of image; none: it is the sensor's
 };
 
 // A colour image registered to the depth image of the same frame, 8-bit RGB interleaved.

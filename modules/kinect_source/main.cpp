@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "modules/codec/codec.h"
 #include "modules/kinect_source/kinect_source.h"
@@ -66,7 +67,9 @@ class KinectSourceModule {
   // A frame that does not fit on the wire becomes one that says so, and gets its result as others.
   depth_frame_t Encode(const DepthFrame& frame) {
     try {
-      return codec::Encode(frame);
+      depth_frame_t message = codec::Encode(frame);
+      if (message.decimation > 1) SayDecimated(message);
+      return message;
     } catch (const codec::MessageTooLarge& error) {
       DepthFrame unsent{frame.header, {}, frame.X_WC};
       unsent.header.error = error.what();
@@ -75,11 +78,25 @@ class KinectSourceModule {
     }
   }
 
+  // Once: what holds for one frame of a recording holds for most.
+  void SayDecimated(const depth_frame_t& message) {
+    if (said_decimated_) return;
+    said_decimated_ = true;
+    const std::string nth = message.decimation == 2   ? "2nd"
+                            : message.decimation == 3 ? "3rd"
+                                                      : std::to_string(message.decimation) + "th";
+    bus_.Warn("decimation", "depth image " + std::to_string(message.sensor_width) + "x" +
+                                std::to_string(message.sensor_height) +
+                                " does not fit into a message: every " + nth +
+                                " row and column is sent");
+  }
+
   runtime::Bus& bus_;
   runtime::Publisher<depth_frame_t> depth_;
   runtime::Publisher<color_frame_t> color_;
   std::unique_ptr<RecordingReader> reader_;
   std::unique_ptr<KinectSource> source_;
+  bool said_decimated_ = false;
 };
 
 }  // namespace

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
 #include "modules/imaging/png_file.h"
 #include "modules/object_exporter/object_line.h"
 #include "modules/object_exporter/overlay.h"
+#include "modules/object_exporter/sensor_size.h"
 
 namespace declutter {
 namespace {
@@ -32,6 +34,20 @@ template <typename Image>
 const Image* Find(int64_t utime, const std::map<int64_t, Image>& images) {
   const auto found = images.find(utime);
   return found == images.end() ? nullptr : &found->second;
+}
+
+// What the pictures of a frame show, at the sensor's size.
+struct Pictured {
+  ObjectList list;
+  std::optional<DepthImage> depth;
+};
+
+Pictured AtSensorSize(const ObjectList& list, const DepthFrame* frame) {
+  if (frame == nullptr) return {list, std::nullopt};
+  const PinholeCamera& camera = frame->image.camera;
+  const bool is_of_list = camera.width == list.camera.width && camera.height == list.camera.height;
+  if (!frame->decimation || !is_of_list) return {list, frame->image};
+  return {AtSensorSize(list, *frame->decimation), AtSensorSize(frame->image, *frame->decimation)};
 }
 
 // The name of a frame as a file name: it comes from a message and may be anything.
@@ -59,7 +75,7 @@ ObjectExporter::ObjectExporter(const ObjectExporterConfig& config)
 }
 
 void ObjectExporter::AddDepth(const DepthFrame& frame) {
-  if (pictures_ && !frame.image.empty()) Keep(frame.header.utime, frame.image, &depths_);
+  if (pictures_ && !frame.image.empty()) Keep(frame.header.utime, frame, &depths_);
 }
 
 void ObjectExporter::AddColor(int64_t utime, const ColorImage& image) {
@@ -103,11 +119,12 @@ std::string ObjectExporter::NewPictureName(const std::string& frame) {
 
 void ObjectExporter::WritePictures(const ObjectList& list, const std::string& picture_name) const {
   const fs::path path = output_ / picture_name;
+  const Pictured shown = AtSensorSize(list, Find(list.header.utime, depths_));
   imaging::WriteGray8Png(path.string() + ".labels.png",
-                         {list.camera.width, list.camera.height, list.labels});
-  imaging::WriteRgbPng(
-      path.string() + ".overlay.png",
-      DrawOverlay(list, Find(list.header.utime, depths_), Find(list.header.utime, colors_)));
+                         {shown.list.camera.width, shown.list.camera.height, shown.list.labels});
+  imaging::WriteRgbPng(path.string() + ".overlay.png",
+                       DrawOverlay(shown.list, shown.depth ? &*shown.depth : nullptr,
+                                   Find(list.header.utime, colors_)));
 }
 
 void ObjectExporter::WriteLine(const std::string& line) {

@@ -16,7 +16,7 @@
 namespace declutter {
 
 // Writes what was found to a folder: a line of objects.jsonl for each frame, and for frames with an
-// image <frame>.labels.png and <frame>.overlay.png.
+// image <frame>.labels.png and <frame>.overlay.png, both at the size of the sensor's image.
 class ObjectExporter {
  public:
   // Creates the folder and begins objects.jsonl anew. Throws std::runtime_error that names the
@@ -42,7 +42,7 @@ class ObjectExporter {
   bool pictures_ = true;
   std::ofstream lines_;
   std::uintmax_t num_bytes_ = 0;  // of complete lines
-  std::map<int64_t, DepthImage> depths_;
+  std::map<int64_t, DepthFrame> depths_;
   std::map<int64_t, ColorImage> colors_;
   std::deque<std::pair<int64_t, std::string>> written_;  // utime and name of the latest frames
   std::set<std::string> picture_names_;

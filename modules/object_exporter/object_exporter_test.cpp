@@ -90,6 +90,48 @@ TEST_F(ObjectExporterTest, DrawsOverDepthWithoutColour) {
   EXPECT_THAT(imaging::ReadRgbPng(Path("a.overlay.png")).rgb, Each(testing::Gt(0)));
 }
 
+// The frame of the list above, of a sensor with 7 x 5 pixels.
+DepthFrame DecimatedDepth(int64_t utime) {
+  DepthFrame depth;
+  depth.header.utime = utime;
+  depth.image = {{4, 3, 10, 10, 1.5, 1}, 0.001, std::vector<uint16_t>(12, 700)};
+  depth.decimation = Decimation{2, 7, 5};
+  return depth;
+}
+
+TEST_F(ObjectExporterTest, RepeatsTheLabelsOfADecimatedFrameToTheSensorsSize) {
+  ObjectExporter exporter(config_);
+  exporter.AddDepth(DecimatedDepth(1));
+  ObjectList list = Frame(1, "a");
+  list.labels = {0, 0, 0, 3, 0, 1, 2, 0, 4, 0, 0, 0};
+  exporter.Export(list);
+  const auto labels = imaging::ReadGray8Png(Path("a.labels.png"));
+  EXPECT_EQ(labels.width, 7);
+  EXPECT_EQ(labels.height, 5);
+  EXPECT_THAT(labels.pixels, ElementsAre(0, 0, 0, 0, 0, 0, 3,  //
+                                         0, 0, 0, 0, 0, 0, 3,  //
+                                         0, 0, 1, 1, 2, 2, 0,  //
+                                         0, 0, 1, 1, 2, 2, 0,  //
+                                         4, 4, 0, 0, 0, 0, 0));
+}
+
+TEST_F(ObjectExporterTest, DrawsADecimatedFrameOverTheSensorsColourOrDepth) {
+  ObjectExporter exporter(config_);
+  exporter.AddDepth(DecimatedDepth(1));
+  exporter.AddColor(1, {7, 5, std::vector<uint8_t>(105, 90)});
+  exporter.AddDepth(DecimatedDepth(2));
+  for (int64_t utime : {1, 2}) {
+    ObjectList list = Frame(utime, utime == 1 ? "color" : "depth");
+    list.labels.assign(12, 0);
+    exporter.Export(list);
+  }
+  EXPECT_THAT(imaging::ReadRgbPng(Path("color.overlay.png")).rgb, Each(90));
+  const ColorImage grey = imaging::ReadRgbPng(Path("depth.overlay.png"));
+  EXPECT_EQ(grey.width, 7);
+  EXPECT_EQ(grey.height, 5);
+  EXPECT_THAT(grey.rgb, Each(testing::Gt(0)));
+}
+
 TEST_F(ObjectExporterTest, IgnoresAFrameThatWasWritten) {
   ObjectExporter exporter(config_);
   exporter.Export(Frame(0, "a"));

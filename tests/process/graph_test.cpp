@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "modules/imaging/png_file.h"
 #include "tests/process/graph_run.h"
 
 namespace declutter {
@@ -76,6 +77,30 @@ TEST_F(GraphTest, FindsTheBoxAndTheCylinderOfARenderedScene) {
   EXPECT_LT(Distance_m(can.at("position"), true_can.at("position")), 0.005);
   EXPECT_NEAR(can.at("radius"), true_can.at("radius"), 0.003);
   EXPECT_NEAR(can.at("height"), true_can.at("height"), 0.005);
+}
+
+TEST_F(GraphTest, FindsObjectsInAnImageThatDoesNotFitIntoAMessage) {
+  const std::string text = folder_.Write("large.textproto", R"(
+camera { width: 1280 height: 720 fx: 1050 fy: 1050 cx: 639.5 cy: 359.5 depth_scale_m: 0.0001 }
+object { box { size_x_m: 0.16 size_y_m: 0.08 size_z_m: 0.2 } x_m: -0.12 y_m: 0.65 yaw_rad: 0.5 }
+object { cylinder { radius_m: 0.045 height_m: 0.15 } x_m: 0.12 y_m: 0.6 }
+)");
+  const std::string scene = folder_.Path("scenes/large");
+  ASSERT_EQ(Launched({Program("scene_renderer"), text, scene}, folder_).Wait().code, 0);
+  const Outcome outcome = Run(scene, output_);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, testing::HasSubstr("kinect_source: depth image 1280x720 does not fit "
+                                              "into a message: every 2nd row and column is sent"));
+  EXPECT_EQ(Lines(output_).at(0).at("objects").size(), 2u);
+  for (const std::string picture : {"labels", "overlay"}) {
+    const ColorImage image = imaging::ReadRgbPng(output_ + "/large." + picture + ".png");
+    EXPECT_EQ(image.width, 1280);
+    EXPECT_EQ(image.height, 720);
+  }
+  // Labels and truth overlap.
+  const Outcome score =
+      Launched({Program("score_objects"), scene, output_, "--min_found", "2"}, folder_).Wait();
+  EXPECT_EQ(score.code, 0) << score.out << score.err;
 }
 
 TEST_F(GraphTest, FindsThePlaneUnderTheObjects) {
