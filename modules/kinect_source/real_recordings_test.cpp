@@ -41,7 +41,8 @@ TEST_F(RealRecordingsTest, EverySceneIsReadable) {
   config.set_input(data_);
   RecordingReader reader(config);
   while (const auto frame = reader.Next()) {
-    const auto& [header, image, X_WC] = frame->depth;
+    const auto& [header, image, X_WC, decimation] = frame->depth;
+    EXPECT_FALSE(decimation.has_value());
     EXPECT_EQ(header.error, "") << header.frame;
     EXPECT_GT(std::count_if(image.counts.begin(), image.counts.end(), [](int c) { return c > 0; }),
               image.camera.num_pixels() / 4)

@@ -82,7 +82,10 @@ TEST_F(BadInputTest, GoesOnAfterUnreadableScenesAndEndsWithOne) {
   fs::resize_file(RenderScene("b") + "/depth.png", 5000);
   fs::create_directories(scenes_ + "/c");
   folder_.Write("scenes/c/scene.json", kCameraAndScale);
-  WriteScene("d", kCameraAndScale, Noise(640, 480));
+  WriteScene("d",
+             R"({"width": 1600, "height": 1200, "fx": 1312, "fy": 1312, "cx": 799.5, "cy": 599.5,
+                 "depth_scale_m": 0.001})",
+             Noise(1600, 1200));
   RenderScene("e");
   const Outcome outcome = Run(scenes_, output_);
   EXPECT_EQ(outcome.code, 1);
