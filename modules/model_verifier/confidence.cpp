@@ -5,8 +5,9 @@
 namespace declutter {
 namespace {
 
-constexpr double kUnexplainedReach = 0.020;   // [m] from a solid to points that it should explain
-constexpr double kMinExtent = 0.010;          // [m] of a solid
+constexpr double kUnexplainedReach = 0.020;  // [m] from a solid to points that it should explain
+constexpr double kMinExtent = 0.010;         // [m] of a solid
+constexpr double kUnknownWeight = 0.25;  // of a pixel without depth: dark or shiny, or no surface
 constexpr double kAssumedDepthFactor = 0.75;  // of the confidence where only one side face was seen
 
 }  // namespace
@@ -35,7 +36,7 @@ double Confidence(const ObjectModel& object, const RayEvidence& evidence, int nu
   if (object.evidence[1] == Evidence::kAssumed) fit *= kAssumedDepthFactor;
   const auto num_explained = static_cast<double>(evidence.explained.size());
   return fit / std::max(1.0, num_explained + evidence.num_violating + evidence.num_contradicting +
-                                 num_unexplained);
+                                 num_unexplained + kUnknownWeight * evidence.num_unknown);
 }
 
 }  // namespace declutter

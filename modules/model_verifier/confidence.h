@@ -15,7 +15,8 @@ int NumUnexplained(const Solid& solid, const DepthImage& image, const Plane& sup
                    const std::vector<uint8_t>& labels);
 
 // In [0, 1]: mean fit of the explained pixels, times their share of all pixels that speak for or
-// against the solid; less where its depth is a guess, 0 where it is too thin to be a solid.
+// against the solid, unmeasured ones a little; less where its depth is a guess, 0 where it is too
+// thin to be a solid.
 double Confidence(const ObjectModel& object, const RayEvidence& evidence, int num_unexplained);
 
 }  // namespace declutter
