@@ -1,16 +1,12 @@
 #include "launcher/graph_text.h"
 
 #include <google/protobuf/empty.pb.h>
-#include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
-#include <regex>
-#include <sstream>
 #include <utility>
 
-#include "modules/runtime/config.h"
 #include "modules/runtime/parameter_check.h"
-#include "modules/runtime/suggestion.h"
+#include "modules/runtime/text_faults.h"
 
 namespace declutter::launcher {
 namespace {
@@ -18,16 +14,6 @@ namespace {
 using google::protobuf::Descriptor;
 using google::protobuf::TextFormat;
 using runtime::ConfigFault;
-
-class FaultCollector : public google::protobuf::io::ErrorCollector {
- public:
-  void AddError(int line, google::protobuf::io::ColumnNumber column,
-                const std::string& text) override {
-    faults.push_back({line + 1, column + 1, text});
-  }
-
-  std::vector<ConfigFault> faults;
-};
 
 // Takes every Any for a message without fields.
 class AnyIsEmpty : public TextFormat::Finder {
@@ -42,24 +28,6 @@ const Descriptor* FindType(const std::string& full_name, const ProgramCatalog* c
   const auto* own = google::protobuf::DescriptorPool::generated_pool();
   const Descriptor* type = catalog == nullptr ? nullptr : catalog->FindType(full_name);
   return type != nullptr ? type : own->FindMessageTypeByName(full_name);
-}
-
-// The parser's own message does not say which field was meant, and points behind its name.
-void ExplainUnknownField(const std::string& text, const ProgramCatalog* catalog,
-                         ConfigFault* fault) {
-  static const std::regex pattern("Message type \"([^\"]+)\" has no field named \"([^\"]+)\".*");
-  std::smatch match;
-  if (!std::regex_match(fault->text, match, pattern)) return;
-  const std::string type_name = match[1];
-  const std::string name = match[2];
-  const Descriptor* type = FindType(type_name, catalog);
-  fault->text = "no field named '" + name + "' in " + type_name;
-  if (type != nullptr) fault->text += runtime::Suggestion(name, runtime::FieldNames(*type));
-  std::istringstream lines(text);
-  std::string line;
-  for (int i = 0; i < fault->line; ++i) std::getline(lines, line);
-  const size_t begin = line.rfind(name, static_cast<size_t>(fault->column));
-  if (begin != std::string::npos) fault->column = static_cast<int>(begin) + 1;
 }
 
 }  // namespace
@@ -82,7 +50,7 @@ bool GraphText::ReadAll(const ProgramCatalog& catalog, std::vector<Fault>* fault
 
 bool GraphText::Read(const TextFormat::Finder& finder, bool skips_unknown,
                      const ProgramCatalog* catalog, std::vector<Fault>* faults) {
-  FaultCollector collector;
+  runtime::FaultCollector collector;
   locations_ = std::make_unique<TextFormat::ParseInfoTree>();
   TextFormat::Parser parser;
   parser.SetFinder(&finder);
@@ -93,7 +61,8 @@ bool GraphText::Read(const TextFormat::Finder& finder, bool skips_unknown,
   if (parser.Parse(&stream, &graph_)) return true;
   if (collector.faults.empty()) collector.faults.push_back({1, 1, "cannot be parsed"});
   for (ConfigFault& fault : collector.faults) {
-    ExplainUnknownField(text_, catalog, &fault);
+    runtime::ExplainUnknownField(
+        text_, [catalog](const std::string& name) { return FindType(name, catalog); }, &fault);
     faults->push_back({Where(fault.line, fault.column), fault.text});
   }
   return false;

@@ -1,12 +1,10 @@
 #include "modules/runtime/config.h"
 
-#include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
-
-#include <sstream>
 
 #include "modules/runtime/parameter_check.h"
 #include "modules/runtime/suggestion.h"
+#include "modules/runtime/text_faults.h"
 
 namespace declutter::runtime {
 namespace {
@@ -15,16 +13,6 @@ using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::TextFormat;
-
-class FaultCollector : public google::protobuf::io::ErrorCollector {
- public:
-  void AddError(int line, google::protobuf::io::ColumnNumber column,
-                const std::string& text) override {
-    faults.push_back({line + 1, column + 1, text});
-  }
-
-  std::vector<ConfigFault> faults;
-};
 
 const Descriptor* FindType(const Descriptor& root, const std::string& full_name, int depth = 0) {
   constexpr int kMaxDepth = 8;
@@ -36,26 +24,6 @@ const Descriptor* FindType(const Descriptor& root, const std::string& full_name,
     if (found != nullptr) return found;
   }
   return nullptr;
-}
-
-// The parser's own message, `Message type "T" has no field named "f".`, does not say which field
-// was meant, and points behind its name.
-void ExplainUnknownField(const std::string& text, const Descriptor& root, ConfigFault* fault) {
-  if (fault->text.find("\" has no field named \"") == std::string::npos) return;
-  std::istringstream words(fault->text);
-  std::string skipped, type_name, name;
-  std::getline(words, skipped, '"');
-  std::getline(words, type_name, '"');
-  std::getline(words, skipped, '"');
-  std::getline(words, name, '"');
-  const Descriptor* type = FindType(root, type_name);
-  fault->text = "no field named '" + name + "' in " + type_name +
-                (type != nullptr ? Suggestion(name, FieldNames(*type)) : "");
-  std::istringstream lines(text);
-  std::string line;
-  for (int i = 0; i < fault->line; ++i) std::getline(lines, line);
-  const std::size_t start = line.rfind(name, static_cast<std::size_t>(fault->column));
-  if (start != std::string::npos) fault->column = static_cast<int>(start) + 1;
 }
 
 std::string Located(const std::string& file, const ConfigFault& fault) {
@@ -137,7 +105,10 @@ void ParseConfig(const std::string& text, const std::string& file, Message* conf
   google::protobuf::io::ArrayInputStream stream(text.data(), static_cast<int>(text.size()));
   if (!parser.Merge(&stream, config)) {
     for (ConfigFault& fault : collector.faults) {
-      ExplainUnknownField(text, *config->GetDescriptor(), &fault);
+      ExplainUnknownField(
+          text,
+          [config](const std::string& name) { return FindType(*config->GetDescriptor(), name); },
+          &fault);
     }
     if (collector.faults.empty()) collector.faults.push_back({1, 1, "cannot be parsed"});
     ThrowIfAny(file, collector.faults);
