@@ -7,8 +7,6 @@
 namespace declutter {
 namespace {
 
-constexpr float kTopTolerance = 0.025f;     // [m] between the top of an arc and the disc above it
-constexpr float kMaxBottomGap = 0.020f;     // [m] unseen above the support: it stands there
 constexpr float kOutlineStep = 0.002f;      // [m] between points of an outline
 constexpr float kMaxOutlineError = 0.003f;  // [m] of a disc's outline
 constexpr size_t kMaxCorners = 20;          // outline points that circles are laid through
@@ -17,7 +15,7 @@ constexpr double kMinDiscShare = 0.5;       // of the outline that lies on the c
 
 Hypothesis MakeCylinder(const CircleModel& circle, int component) {
   Hypothesis hypothesis;
-  const float bottom = circle.z_min < kMaxBottomGap ? 0.0f : circle.z_min;
+  const float bottom = BottomOf(circle.z_min);
   hypothesis.solid.shape = Shape::kCylinder;
   hypothesis.solid.X_CO.translation() =
       Eigen::Vector3f(circle.c.x(), circle.c.y(), 0.5f * (bottom + circle.z_max)).cast<double>();
@@ -106,7 +104,7 @@ std::optional<CircleModel> FitDisc(const HoughSegmenterConfig& config, const Top
       static_cast<double>(best_num) < kMinDiscShare * static_cast<double>(outline.size())) {
     return std::nullopt;
   }
-  best.z_min = patch.height - 0.005f;
+  best.z_min = patch.height - kTopOnlyDepth;
   best.z_max = patch.height;
   return best;
 }

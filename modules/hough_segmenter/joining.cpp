@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "modules/hough_segmenter/rectangle.h"
+#include "modules/hough_segmenter/solid_completion.h"
 
 namespace declutter {
 namespace {
@@ -28,8 +28,8 @@ std::optional<Face> Join(const Face& a, const Face& b, float max_extent) {
   const Eigen::Vector2f p0 = f.PointAt(f.s_min);
   const Eigen::Vector2f p1 = f.PointAt(f.s_max);
   line.rho = 0.25f * line.n.dot(p0 + p1 + q0 + q1);
-  line.s_min = std::min({t.dot(p0), t.dot(q0)});
-  line.s_max = std::max({t.dot(p1), t.dot(q1)});
+  line.s_min = std::min(t.dot(p0), t.dot(q0));
+  line.s_max = std::max(t.dot(p1), t.dot(q1));
   line.z_min = std::min(f.z_min, g.z_min);
   line.z_max = std::max(f.z_max, g.z_max);
   if (line.length() > max_extent) return std::nullopt;

@@ -4,20 +4,19 @@
 #include <cmath>
 
 #include "modules/hough_segmenter/quantile.h"
+#include "modules/hough_segmenter/solid_completion.h"
 
 namespace declutter {
 namespace {
 
 constexpr float kEdgeTolerance = 0.015f;  // [m] between a face and the edge of the top face
-constexpr float kMaxBottomGap = 0.020f;   // [m] unseen above the support: it stands there
-constexpr float kTopOnlyDepth = 0.005f;   // [m] of side below a top face of which no side is seen
 constexpr float kBin = 0.004f;            // [m] of the profile of a top face
 
 }  // namespace
 
 Hypothesis MakeBox(const Rectangle& r) {
   Hypothesis hypothesis;
-  const float bottom = r.z_min < kMaxBottomGap ? 0.0f : r.z_min;
+  const float bottom = BottomOf(r.z_min);
   const Eigen::Vector2f centre =
       0.5f * (r.a_min + r.a_max) * r.axis + 0.5f * (r.b_min + r.b_max) * r.perpendicular();
   hypothesis.solid.shape = Shape::kBox;

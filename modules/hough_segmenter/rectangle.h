@@ -24,10 +24,6 @@ struct Rectangle {
   Eigen::Vector2f perpendicular() const { return {-axis.y(), axis.x()}; }
 };
 
-// [m] between the upper end of a face and the height of the top face, or of a second face, of one
-// box.
-inline constexpr float kTopTolerance = 0.025f;
-
 // The standing box over a rectangle, in T. A box whose lower end is near the support stands on it.
 Hypothesis MakeBox(const Rectangle& r);
 

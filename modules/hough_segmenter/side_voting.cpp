@@ -1,6 +1,5 @@
 #include "modules/hough_segmenter/side_voting.h"
 
-#include "modules/hough_segmenter/inlier_filters.h"
 #include "modules/hough_segmenter/parameter_space.h"
 
 namespace declutter {
@@ -33,29 +32,26 @@ void CastVotes(SideFitter* fitter, std::vector<char> is_free, Votes* votes) {
 }
 
 template <typename Model>
-Detection<Model> MakeDetection(const std::vector<SideCell>& cells, const Fit<Model>& fit,
-                               int component, int num_votes) {
+Detection<Model> MakeDetection(const Fit<Model>& fit, int component, int num_votes) {
   Detection<Model> detection;
   detection.model = fit.model;
   detection.component = component;
   detection.num_votes = num_votes;
   detection.num_points = static_cast<int>(fit.num_points);
   detection.agreement = fit.support / fit.num_points;
-  detection.median_kappa = MedianKappa(cells, fit.inliers);
   return detection;
 }
 
-// Turns the highest peak of either space into a detection and removes what it explains. False when
-// no votes are left.
+// Turns the highest peak of a space into a detection and removes what it explains.
 template <typename Model>
-void TakePeak(const SideFitter& fitter, const std::vector<SideCell>& cells, int component,
+void TakePeak(const SideFitter& fitter, int component,
               const typename ParameterSpace<Model>::Peak& peak, ParameterSpace<Model>* space,
               std::vector<char>* is_free, std::vector<Detection<Model>>* detections) {
   const auto fit = fitter.Refit(peak.model, *is_free);
   space->Remove(peak.strongest);
   if (!fit) return;
   Remove(fit->inliers, is_free);
-  detections->push_back(MakeDetection(cells, *fit, component, peak.num_votes));
+  detections->push_back(MakeDetection(*fit, component, peak.num_votes));
 }
 
 }  // namespace
@@ -78,9 +74,9 @@ void DetectSides(const HoughSegmenterConfig& config, FeatureMode mode,
       const auto circle = votes.circles.HighestPeak();
       if (!line && !circle) break;
       if (line && (!circle || line->density >= circle->density)) {
-        TakePeak(fitter, cells, component, *line, &votes.lines, &is_free, &detections->faces);
+        TakePeak(fitter, component, *line, &votes.lines, &is_free, &detections->faces);
       } else {
-        TakePeak(fitter, cells, component, *circle, &votes.circles, &is_free, &detections->arcs);
+        TakePeak(fitter, component, *circle, &votes.circles, &is_free, &detections->arcs);
       }
       votes.lines.KeepSupported(cells, is_free);
       votes.circles.KeepSupported(cells, is_free);

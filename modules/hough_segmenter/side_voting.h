@@ -12,9 +12,8 @@ struct Detection {
   Model model;
   int component = 0;
   int num_votes = 0;
-  int num_points = 0;      // [px] inliers
-  float agreement = 0;     // mean agreement of the inliers with the model, in [0, 1]
-  float median_kappa = 0;  // [1/m] of the inliers
+  int num_points = 0;   // [px] inliers
+  float agreement = 0;  // mean agreement of the inliers with the model, in [0, 1]
 };
 using Face = Detection<LineModel>;
 using Arc = Detection<CircleModel>;

@@ -16,6 +16,15 @@ struct Surfaces {
   std::vector<TopPatch> tops;
 };
 
+// [m] between the upper end of a side and the top of the same object.
+inline constexpr float kTopTolerance = 0.025f;
+// [m] of side below a top of which no side is seen.
+inline constexpr float kTopOnlyDepth = 0.005f;
+
+// [m] lower end of a solid whose side was seen down to z_min: when little is unseen above the
+// support, it stands there.
+inline float BottomOf(float z_min) { return z_min < 0.020f ? 0.0f : z_min; }
+
 // Measures the extents of faces and arcs again on the points instead of the cells, where normals
 // and curvature near an outline have kept cells out.
 void MeasureExtents(const std::vector<TablePoint>& points, Surfaces* surfaces);

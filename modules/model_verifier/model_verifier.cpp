@@ -10,10 +10,9 @@
 namespace declutter {
 namespace {
 
-// The label image: each pixel belongs to the object whose surface it fits best; what is seen inside
-// an open cylinder belongs to it when nothing else explains it.
+// Fills the empty label image: each pixel belongs to the object whose surface it fits best; what is
+// seen inside an open cylinder belongs to it when nothing else explains it.
 void Label(const std::vector<RayEvidence>& evidence, ObjectList* list) {
-  list->labels.assign(static_cast<size_t>(list->camera.num_pixels()), 0);
   std::vector<float> best(list->labels.size(), 0);
   for (size_t i = 0; i < evidence.size(); ++i) {
     for (const auto& pixel : evidence[i].explained) {
@@ -86,8 +85,6 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
     ObjectModel& object = list.objects[i];
     object.confidence = static_cast<float>(Confidence(
         object, evidence[i], NumUnexplained(object.solid, frame.image, support, list.labels)));
-  }
-  for (ObjectModel& object : list.objects) {
     object.evidence = ExtentEvidence(object.solid, object.evidence, frame.image);
   }
   DropUncertain(config_.min_confidence(), &list);

@@ -26,6 +26,9 @@ struct BoxFace {
   int sign;
 };
 
+// All that can be seen: never the lower end.
+constexpr BoxFace kFaces[] = {{0, 1}, {0, -1}, {1, 1}, {1, -1}, {2, 1}};
+
 bool IsOn(const SurfacePoint& point, const BoxFace& face, const Eigen::Vector3d& half) {
   const double distance = face.sign * point.p_O[face.axis] - half[face.axis];
   if (std::abs(distance) > std::max(0.005, 3 * point.sigma)) return false;
@@ -33,7 +36,7 @@ bool IsOn(const SurfacePoint& point, const BoxFace& face, const Eigen::Vector3d&
   return point.n_O.isZero() || face.sign * point.n_O[face.axis] > kMinCos;
 }
 
-// Inside the face, `margin` away from its edges; negative margins reach beyond them.
+// Inside the face, `margin` away from its edges.
 bool IsWithin(const SurfacePoint& point, int except_axis, const Eigen::Vector3d& half,
               double margin) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -53,7 +56,7 @@ double Weight(const SurfacePoint& point, double cosine) {
 class BoxFit {
  public:
   BoxFit(const std::vector<SurfacePoint>& points, const Eigen::Vector3d& half) {
-    for (const BoxFace& face : {BoxFace{0, 1}, {0, -1}, {1, 1}, {1, -1}, {2, 1}}) {
+    for (const BoxFace& face : kFaces) {
       Accumulate(points, face, half);
     }
     Solve();
@@ -138,7 +141,7 @@ std::optional<double> AreaEnd(const std::vector<std::pair<double, double>>& samp
 std::optional<double> HiddenEnd(const std::vector<SurfacePoint>& points, const BoxFace& hidden,
                                 const Eigen::Vector3d& half) {
   std::vector<std::pair<double, double>> best;
-  for (const BoxFace& face : {BoxFace{0, 1}, {0, -1}, {1, 1}, {1, -1}, {2, 1}}) {
+  for (const BoxFace& face : kFaces) {
     if (face.axis == hidden.axis) continue;
     const int across = 3 - face.axis - hidden.axis;
     std::vector<std::pair<double, double>> samples;
@@ -158,7 +161,7 @@ Solid RefineBox(Solid solid, const DepthImage& image, const NormalImage& normals
   const BoxFit fit(points, half);
   Eigen::Vector3d low = -half;
   Eigen::Vector3d high = half;
-  for (const BoxFace& face : {BoxFace{0, 1}, {0, -1}, {1, 1}, {1, -1}, {2, 1}}) {
+  for (const BoxFace& face : kFaces) {
     double& end = face.sign > 0 ? high[face.axis] : low[face.axis];
     if (const auto offset = fit.Offset(face)) {
       end = *offset;
