@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <optional>
 #include <string>
 
@@ -13,7 +15,7 @@ class Process {
  public:
   virtual ~Process() = default;
 
-  // Throws std::runtime_error when it cannot be started.
+  // Throws std::runtime_error when it cannot be started. May be called again after its end.
   virtual void Start() = 0;
 
   // Asks it to finish what is on its way and to end.
@@ -30,7 +32,10 @@ class Process {
   // True from the time when it loses no message that is sent to it.
   virtual bool is_ready() const = 0;
 
-  // How it ended, once.
+  // What it said last of itself, once; nothing where nothing new has come.
+  virtual std::optional<module_status_t> TakeStatus() { return std::nullopt; }
+
+  // How it ended, once for each start.
   virtual std::optional<Ending> Reap() = 0;
 
   // Readable when OnTurn has something to do; -1: nothing is to be read.

@@ -46,16 +46,12 @@ int64_t WallClock_us() {
 
 Recorder::Recorder(std::vector<std::string> command, std::string log, std::string stderr_path,
                    Wire* wire)
-    : command_(std::move(command)),
-      log_(std::move(log)),
-      stderr_path_(std::move(stderr_path)),
-      wire_(wire) {}
+    : Program(std::move(command), std::move(stderr_path)), log_(std::move(log)), wire_(wire) {}
 
 void Recorder::Start() {
-  child_ = std::make_unique<ChildProcess>(command_, stderr_path_);
-  has_stderr_ = true;
+  Program::Start();
   // Late, it loses messages: it goes first where we may say so.
-  setpriority(PRIO_PROCESS, static_cast<id_t>(child_->pid()), kPriority);
+  setpriority(PRIO_PROCESS, static_cast<id_t>(pid()), kPriority);
 }
 
 void Recorder::Terminate() {
@@ -65,17 +61,13 @@ void Recorder::Terminate() {
   mark_s_ = 0.0;
 }
 
-void Recorder::Kill() {
-  if (child_) child_->Signal(SIGKILL);
-}
-
 void Recorder::OnMessage(const Message& message) {
   if (is_ready_ && IsCounted(message.channel)) ++num_heard_;
 }
 
 void Recorder::OnTurn(double now_s) {
-  if (has_stderr_) has_stderr_ = child_->ForwardStderr();
-  if (!child_ || is_complete_ || (is_ready_ && !is_ending_)) return;
+  Program::OnTurn(now_s);
+  if (pid() < 0 || is_complete_ || (is_ready_ && !is_ending_)) return;
   if (!TailHolds(log_, mark_.bytes)) {
     if (now_s - mark_s_ > kMarkPeriod_s) SendMark(now_s);
     return;
@@ -83,7 +75,7 @@ void Recorder::OnTurn(double now_s) {
   is_ready_ = true;
   if (!is_ending_) return;
   is_complete_ = true;
-  child_->Signal(SIGTERM);
+  Signal(SIGTERM);
 }
 
 void Recorder::SendMark(double now_s) {
@@ -91,7 +83,7 @@ void Recorder::SendMark(double now_s) {
     module_status_t status = {};
     status.utime = WallClock_us();
     status.module = status.program = "launcher";
-    status.pid = getpid();
+    status.pid = ::getpid();
     status.state = is_ending_ ? kFinished : kStarting;
     mark_ = EncodeStatus(status);
   }
@@ -99,14 +91,8 @@ void Recorder::SendMark(double now_s) {
   wire_->Publish(mark_);
 }
 
-std::optional<Ending> Recorder::Reap() {
-  auto ending = child_ ? child_->Reap() : std::nullopt;
-  if (!ending) return ending;
-  has_stderr_ = false;
-  return ending->code == 0 ? Judge() : ending;
-}
-
-Ending Recorder::Judge() const {
+Ending Recorder::Judge(const Ending& ending) const {
+  if (ending.code != 0) return ending;
   if (!is_complete_) return {1, 0, "an incomplete log " + log_};
   int64_t num_recorded = 0;
   try {
@@ -120,7 +106,5 @@ Ending Recorder::Judge() const {
           "a log that lacks " + std::to_string(num_heard_ - num_recorded) + " of " +
               std::to_string(num_heard_) + " messages"};
 }
-
-int Recorder::fd() const { return has_stderr_ ? child_->stderr_fd() : -1; }
 
 }  // namespace declutter::launcher

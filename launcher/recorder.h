@@ -1,11 +1,9 @@
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "launcher/process.h"
+#include "launcher/program.h"
 
 namespace declutter::launcher {
 
@@ -13,35 +11,27 @@ namespace declutter::launcher {
 // holds 30 messages), and ends with 0 on a full disk. So a mark of ours must appear in the log
 // before the run starts, another, sent after the last message of the run, must be its end, and
 // between them there must be as many messages as we have heard.
-class Recorder : public Process {
+class Recorder : public Program {
  public:
   // command: lcm-logger with its arguments, writing log. wire is kept.
   Recorder(std::vector<std::string> command, std::string log, std::string stderr_path, Wire* wire);
 
   void Start() override;
   void Terminate() override;
-  void Kill() override;
   void OnMessage(const Message& message) override;
   void OnTurn(double now_s) override;
-  bool is_ready() const override { return is_ready_; }
-  std::optional<Ending> Reap() override;
-  int fd() const override;
+
+ protected:
+  Ending Judge(const Ending& ending) const override;
 
  private:
-  Ending Judge() const;
   void SendMark(double now_s);
 
-  std::vector<std::string> command_;
   std::string log_;
-  std::string stderr_path_;
   Wire* wire_;
-  std::unique_ptr<ChildProcess> child_;
   Message mark_;
-  double mark_s_ = 0.0;  // when it was sent last
-  bool has_stderr_ = false;
+  double mark_s_ = 0.0;    // when it was sent last
   int64_t num_heard_ = 0;  // messages of modules, status left out
-  bool is_ready_ = false;
-  bool is_ending_ = false;
   bool is_complete_ = false;
 };
 

@@ -34,6 +34,21 @@ std::vector<std::string> ModuleCommand(const ResolvedModule& resolved, bool loss
   return command;
 }
 
+Node PlanNode(const Module& module) {
+  using When = RestartRule::When;
+  const When when = module.restart() == "always"       ? When::kAlways
+                    : module.restart() == "on_failure" ? When::kOnFailure
+                                                       : When::kNever;
+  Node node{module.name(), {}};
+  node.start_limit_s = module.start_limit_s();
+  node.grace_period_s = module.grace_period_s();
+  node.is_required = module.required();
+  node.restart = {when, module.restart_delay_s(), module.max_restart_delay_s(),
+                  module.max_restarts()};
+  node.hang_limit_s = module.hang_limit_s();
+  return node;
+}
+
 // As a pattern. What is recorded is heard, to be counted.
 std::string HeardChannels(const RunOptions& options) {
   if (!options.record.empty()) return ".*";
@@ -64,8 +79,8 @@ std::vector<Node> PlanNodes(const ResolvedGraph& graph, const RunOptions& option
   if (has_recorder) nodes.push_back({kLogger, {}});
   for (size_t i = 0; i < graph.modules.size(); ++i) {
     const Module& module = graph.modules[i].module;
-    Node node{
-        module.name(), {}, IsSource(wiring[i]), module.start_limit_s(), module.grace_period_s()};
+    Node node = PlanNode(module);
+    node.is_source = IsSource(wiring[i]);
     for (const size_t consumer : Downstream(wiring, i)) {
       node.downstream.push_back(wiring[consumer].name);
     }

@@ -27,6 +27,10 @@ sigset_t HandledSignals() {
   return signals;
 }
 
+Beat BeatOf(const std::string& name, const module_status_t& status) {
+  return {name, status.num_done, status.num_waiting > 0 || status.num_in > status.num_done};
+}
+
 }  // namespace
 
 void HoldSignals() {
@@ -55,6 +59,7 @@ int Session::Run() {
       for (const Message& message : messages) process->OnMessage(message);
       process->OnTurn(MonotonicSeconds());
       if (process->is_ready()) Decide(Ready{name});
+      if (const auto status = process->TakeStatus()) Decide(BeatOf(name, *status));
       if (const auto ending = process->Reap()) {
         Decide(Exited{name, ending->code, ending->signal != 0, ending->how});
       }

@@ -8,10 +8,21 @@
 namespace declutter::launcher {
 namespace {
 
+constexpr int kBadConfig = 2;  // exit code: what cannot work once cannot work again
+
 std::string Seconds(double seconds) {
   char text[32];
   std::snprintf(text, sizeof(text), "%g s", seconds);
   return text;
+}
+
+bool Lives(State state) {
+  return state == State::kStarting || state == State::kRunning || state == State::kTerminating ||
+         state == State::kKilled;
+}
+
+bool EndsByItself(const Node& node, const Exited& event) {
+  return node.is_source && !event.by_signal && event.code <= 1;
 }
 
 }  // namespace
@@ -19,9 +30,7 @@ std::string Seconds(double seconds) {
 Supervisor::Supervisor(std::vector<Node> nodes, bool is_finite) : is_finite_(is_finite) {
   for (Node& node : nodes) {
     order_.push_back(node.name);
-    Process process;
-    process.node = std::move(node);
-    if (!processes_.emplace(order_.back(), std::move(process)).second) {
+    if (!processes_.emplace(order_.back(), Process(std::move(node))).second) {
       throw std::logic_error("two nodes named " + order_.back());
     }
   }
@@ -38,6 +47,8 @@ std::vector<Action> Supervisor::Handle(const Event& event, double now_s) {
   actions_.clear();
   std::visit([&](const auto& e) { On(e, now_s); }, event);
   if (!is_stopping_) CheckStartLimits(now_s);
+  if (!is_stopping_) CheckHangs(now_s);
+  if (!is_stopping_) RestartWhatIsDue(now_s);
   if (!is_stopping_) StartWhatCan(now_s);
   if (!is_stopping_ && AllSourcesEnded()) is_stopping_ = true;
   if (is_stopping_) StopWhatCan(now_s);
@@ -45,30 +56,73 @@ std::vector<Action> Supervisor::Handle(const Event& event, double now_s) {
   return std::exchange(actions_, {});
 }
 
+template <typename Visit>
+void Supervisor::ForEachInOrder(const Visit& visit) {
+  for (const std::string& name : order_) visit(processes_.at(name));
+}
+
+void Supervisor::Enter(State state, Process* process, double now_s) {
+  process->state = state;
+  process->since_s = now_s;
+}
+
 void Supervisor::On(const Ready& event, double now_s) {
   Process& process = processes_.at(event.name);
   if (process.state != State::kStarting) return;
-  process.state = State::kRunning;
-  process.since_s = now_s;
+  Enter(State::kRunning, &process, now_s);
+  process.watch.Start(now_s);
+}
+
+void Supervisor::On(const Beat& event, double now_s) {
+  processes_.at(event.name).watch.Beat(event.num_done, event.is_busy, now_s);
 }
 
 void Supervisor::On(const Exited& event, double now_s) {
   Process& process = processes_.at(event.name);
-  const bool is_asked = process.state == State::kTerminating;
-  const bool is_end_of_input = process.node.is_source && !event.by_signal && event.code <= 1;
-  if (process.state != State::kKilled && event.code != 0) {
-    // Code 1 of a source is the end of an input of which some could not be read.
-    if (is_end_of_input || is_asked) {
-      if (exit_code_ == 0) exit_code_ = event.code;
-      actions_.push_back(Say{event.name + " ended with " + event.how});
-    } else {
-      Fail(event.code, event.name + " ended with " + event.how);
+  const State was = process.state;
+  const double ran_s = was == State::kRunning ? now_s - process.since_s : 0.0;
+  Enter(State::kEnded, &process, now_s);
+  if (is_stopping_) return JudgeLastEnd(event, was);
+  if (process.then == Then::kRule) return ApplyRule(event, was, ran_s, now_s);
+  if (was != State::kKilled && event.code != 0) Tell(event.name + " ended with " + event.how);
+  if (process.then == Then::kStart) return StartNow(&process, now_s);
+  Enter(State::kStopped, &process, now_s);
+}
+
+void Supervisor::JudgeLastEnd(const Exited& event, State was) {
+  const Node& node = processes_.at(event.name).node;
+  if (was == State::kKilled || event.code == 0) return;
+  // Code 1 of a source is the end of an input of which some could not be read.
+  if (node.is_required && exit_code_ == 0) exit_code_ = event.code;
+  Tell(event.name + " ended with " + event.how);
+}
+
+void Supervisor::ApplyRule(const Exited& event, State was, double ran_s, double now_s) {
+  using When = RestartRule::When;
+  Process& process = processes_.at(event.name);
+  const bool was_killed = was == State::kKilled;
+  const bool ends_by_itself = !was_killed && EndsByItself(process.node, event);
+  const bool is_end_of_input = ends_by_itself && (event.code == 0 || is_finite_);
+  const When when = process.node.restart.when;
+  std::string text = event.name + (was_killed               ? " was killed"
+                                   : event.code != 0        ? " ended with " + event.how
+                                   : process.node.is_source ? " ended"
+                                                            : " ended before its input did");
+  if (event.code != kBadConfig &&
+      (when == When::kAlways || (when == When::kOnFailure && !is_end_of_input))) {
+    if (const auto delay_s = process.backoff.Next(ran_s)) {
+      Enter(State::kPausing, &process, now_s);
+      process.due_s = now_s + *delay_s;
+      return Tell(text + "; starts again in " + Seconds(*delay_s));
     }
-  } else if (event.code == 0 && !is_end_of_input && !is_stopping_) {
-    Fail(1, event.name + " ended before its input did");
+    text += " after " + std::to_string(process.node.restart.max_in_a_row) + " restarts in a row";
+  } else if (ends_by_itself) {
+    if (event.code == 0) return;
+    if (process.node.is_required && exit_code_ == 0) exit_code_ = event.code;
+    return Tell(text);
   }
-  process.state = State::kEnded;
-  process.since_s = now_s;
+  if (!process.node.is_required) return Tell(text + "; the graph goes on without it");
+  Fail(event.code == 0 ? 1 : event.code, text);
 }
 
 void Supervisor::On(const Interrupted& event, double now_s) {
@@ -76,71 +130,126 @@ void Supervisor::On(const Interrupted& event, double now_s) {
   if (!is_stopping_) {
     is_stopping_ = true;
     if (is_finite_ && exit_code_ == 0) exit_code_ = 128 + event.signal;
-    actions_.push_back(Say{"stopping on signal " + std::to_string(event.signal)});
+    Tell("stopping on signal " + std::to_string(event.signal));
   }
   if (num_signals_ < 2) return;
-  for (const std::string& name : order_) {
-    Process& process = processes_.at(name);
-    if (process.state == State::kWaiting || process.state == State::kEnded) continue;
-    process.state = State::kKilled;
-    process.since_s = now_s;
-    actions_.push_back(Kill{name});
+  ForEachInOrder([&](Process& process) {
+    if (Lives(process.state)) KillNow(&process, now_s);
+  });
+}
+
+void Supervisor::On(const Asked& event, double now_s) {
+  if (is_stopping_) return;
+  Process& process = processes_.at(event.name);
+  const bool is_up = process.state == State::kStarting || process.state == State::kRunning;
+  const Then then = event.verb == Asked::Verb::kStop ? Then::kStay : Then::kStart;
+  process.backoff.Reset();
+  if (is_up && event.verb == Asked::Verb::kStart) return;
+  if (is_up) return TerminateNow(&process, then, now_s);
+  if (Lives(process.state)) {
+    process.then = then;
+  } else if (then == Then::kStart) {
+    StartNow(&process, now_s);
+  } else {
+    Enter(State::kStopped, &process, now_s);
   }
+}
+
+void Supervisor::StartNow(Process* process, double now_s) {
+  if (process->was_started) ++process->num_restarts;
+  process->was_started = true;
+  process->then = Then::kRule;
+  Enter(State::kStarting, process, now_s);
+  actions_.push_back(Start{process->node.name});
+}
+
+void Supervisor::TerminateNow(Process* process, Then then, double now_s) {
+  process->then = then;
+  Enter(State::kTerminating, process, now_s);
+  actions_.push_back(Terminate{process->node.name});
+}
+
+void Supervisor::KillNow(Process* process, double now_s) {
+  Enter(State::kKilled, process, now_s);
+  actions_.push_back(Kill{process->node.name});
 }
 
 void Supervisor::StartWhatCan(double now_s) {
-  for (const std::string& name : order_) {
-    Process& process = processes_.at(name);
-    if (process.state != State::kWaiting) continue;
-    if (!AllAre(process.node.downstream, State::kRunning)) continue;
-    process.state = State::kStarting;
-    process.since_s = now_s;
-    actions_.push_back(Start{name});
-  }
+  ForEachInOrder([&](Process& process) {
+    if (process.state == State::kWaiting && IsServed(process)) StartNow(&process, now_s);
+  });
+}
+
+void Supervisor::RestartWhatIsDue(double now_s) {
+  ForEachInOrder([&](Process& process) {
+    if (process.state == State::kPausing && now_s >= process.due_s) StartNow(&process, now_s);
+  });
 }
 
 void Supervisor::CheckStartLimits(double now_s) {
-  for (const std::string& name : order_) {
-    const Process& process = processes_.at(name);
-    if (process.state != State::kStarting) continue;
-    if (now_s - process.since_s <= process.node.start_limit_s) continue;
-    Fail(1, name + " is not ready " + Seconds(process.node.start_limit_s) + " after its start");
-    return;
+  ForEachInOrder([&](Process& process) {
+    const double limit_s = process.node.start_limit_s;
+    if (is_stopping_ || process.state != State::kStarting) return;
+    if (now_s - process.since_s <= limit_s) return;
+    GiveUp(&process, " is not ready " + Seconds(limit_s) + " after its start", now_s);
+  });
+}
+
+void Supervisor::CheckHangs(double now_s) {
+  ForEachInOrder([&](Process& process) {
+    if (is_stopping_ || process.state != State::kRunning) return;
+    if (process.watch.is_silent(now_s)) {
+      GiveUp(&process, " hangs: no sign of life for " + Seconds(process.watch.silence_limit_s()),
+             now_s);
+    } else if (process.watch.is_stuck(now_s)) {
+      GiveUp(
+          &process,
+          " hangs: input waits and no frame was finished for " + Seconds(process.watch.limit_s()),
+          now_s);
+    }
+  });
+}
+
+void Supervisor::GiveUp(Process* process, const std::string& why, double now_s) {
+  const Node& node = process->node;
+  if (node.is_required && node.restart.when == RestartRule::When::kNever) {
+    return Fail(1, node.name + why);
   }
+  Tell(node.name + why);
+  process->then = Then::kRule;
+  KillNow(process, now_s);
 }
 
 void Supervisor::StopWhatCan(double now_s) {
-  // What never started counts as ended; a node may then become free to stop in the same pass.
+  // What does not run counts as ended; a node may then become free to stop in the same pass.
   for (auto& [name, process] : processes_) {
-    if (process.state == State::kWaiting) process.state = State::kEnded;
+    if (!Lives(process.state)) process.state = State::kEnded;
   }
-  for (const std::string& name : order_) {
-    Process& process = processes_.at(name);
-    if (process.state != State::kStarting && process.state != State::kRunning) continue;
-    if (!AllAre(process.upstream, State::kEnded)) continue;
-    process.state = State::kTerminating;
-    process.since_s = now_s;
-    actions_.push_back(Terminate{name});
-  }
+  ForEachInOrder([&](Process& process) {
+    const bool is_up = process.state == State::kStarting || process.state == State::kRunning;
+    if (is_up && AllEnded(process.upstream)) TerminateNow(&process, Then::kStay, now_s);
+  });
 }
 
 void Supervisor::KillWhatLingers(double now_s) {
-  for (const std::string& name : order_) {
-    Process& process = processes_.at(name);
-    if (process.state != State::kTerminating) continue;
-    if (now_s - process.since_s <= process.node.grace_period_s) continue;
-    process.state = State::kKilled;
-    process.since_s = now_s;
-    Fail(1, name + " still runs " + Seconds(process.node.grace_period_s) +
-                " after it was asked to stop: killed");
-    actions_.push_back(Kill{name});
-  }
+  ForEachInOrder([&](Process& process) {
+    const double limit_s = process.node.grace_period_s;
+    if (process.state != State::kTerminating || now_s - process.since_s <= limit_s) return;
+    const std::string text = process.node.name + " still runs " + Seconds(limit_s) +
+                             " after it was asked to stop: killed";
+    if (is_stopping_ && process.node.is_required) {
+      Fail(1, text);
+    } else {
+      Tell(text);
+    }
+    KillNow(&process, now_s);
+  });
 }
 
 void Supervisor::Fail(int code, const std::string& text) {
   if (exit_code_ == 0) exit_code_ = code;
   is_stopping_ = true;
-  actions_.push_back(Say{text});
+  Tell(text);
 }
 
 bool Supervisor::finished() const {
@@ -149,9 +258,19 @@ bool Supervisor::finished() const {
          });
 }
 
-bool Supervisor::AllAre(const std::vector<std::string>& names, State state) const {
-  return std::all_of(names.begin(), names.end(),
-                     [&](const std::string& name) { return processes_.at(name).state == state; });
+bool Supervisor::IsServed(const Process& process) const {
+  const auto& names = process.node.downstream;
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    const Process& consumer = processes_.at(name);
+    return consumer.state == State::kRunning || consumer.state == State::kStopped ||
+           (consumer.state == State::kEnded && !consumer.node.is_required);
+  });
+}
+
+bool Supervisor::AllEnded(const std::vector<std::string>& names) const {
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return processes_.at(name).state == State::kEnded;
+  });
 }
 
 bool Supervisor::AllSourcesEnded() const {

@@ -5,6 +5,9 @@
 #include <variant>
 #include <vector>
 
+#include "launcher/hang_watch.h"
+#include "launcher/restart_policy.h"
+
 namespace declutter::launcher {
 
 // A process as the supervisor sees it.
@@ -14,11 +17,19 @@ struct Node {
   bool is_source = false;               // may end by itself: 0 or 1 is the end of its input
   double start_limit_s = 20.0;          // from start to ready
   double grace_period_s = 5.0;          // from terminate to kill
+  bool is_required = true;              // its failure ends the run
+  RestartRule restart = {};
+  double hang_limit_s = HangWatch::kNever;
 };
 
 // What happened.
 struct Ready {
   std::string name;
+};
+struct Beat {
+  std::string name;
+  long num_done = 0;     // frames finished
+  bool is_busy = false;  // a frame is begun or waits
 };
 struct Exited {
   std::string name;
@@ -29,8 +40,13 @@ struct Exited {
 struct Interrupted {
   int signal = 0;
 };
+struct Asked {  // by a user, of one process
+  enum class Verb { kStart, kStop, kRestart };
+  Verb verb;
+  std::string name;
+};
 struct TimePassed {};
-using Event = std::variant<Ready, Exited, Interrupted, TimePassed>;
+using Event = std::variant<Ready, Beat, Exited, Interrupted, Asked, TimePassed>;
 
 // What to do about it.
 struct Start {
@@ -47,12 +63,27 @@ struct Say {
 };
 using Action = std::variant<Start, Terminate, Kill, Say>;
 
+// Of a process. Pausing: it starts again in a moment. Stopped: a user asked for it. Ended: for
+// good.
+enum class State {
+  kWaiting,
+  kStarting,
+  kRunning,
+  kTerminating,
+  kKilled,
+  kPausing,
+  kStopped,
+  kEnded
+};
+
 // Decides when each process of a graph starts and stops. Holds no process, clock or socket: what it
 // asks for is a function of the events and their times alone.
 //
 // A node starts when everything downstream of it is ready, so no message is lost; when the run
 // ends, a node is terminated when everything upstream of it has ended, so each drains what is on
-// its way. The run ends when all sources have ended, when a process fails, or on a signal.
+// its way. A process that fails starts again as its rule says, except after exit code 2, which says
+// that it never can. The run ends when all sources have ended, when a required process has failed
+// for good, or on a signal.
 class Supervisor {
  public:
   // is_finite: the graph is run over recordings, so a signal cuts it short. nodes must have unique
@@ -69,26 +100,60 @@ class Supervisor {
   // everything went well, which for a live graph includes being stopped by a signal.
   int exit_code() const { return exit_code_; }
 
+  bool is_stopping() const { return is_stopping_; }
+  State state(const std::string& name) const { return processes_.at(name).state; }
+  int num_restarts(const std::string& name) const { return processes_.at(name).num_restarts; }
+
  private:
-  enum class State { kWaiting, kStarting, kRunning, kTerminating, kKilled, kEnded };
+  // What follows the end of a process that was asked or forced to end before the run does.
+  enum class Then { kRule, kStay, kStart };
   struct Process {
+    explicit Process(Node n)
+        : node(std::move(n)), backoff(node.restart), watch(node.hang_limit_s) {}
+
     Node node;
     std::vector<std::string> upstream;
     State state = State::kWaiting;
     double since_s = 0.0;  // when the state was entered
+    double due_s = 0.0;    // when it starts again, if pausing
+    Then then = Then::kRule;
+    bool was_started = false;
+    int num_restarts = 0;
+    Backoff backoff;
+    HangWatch watch;
   };
 
   void On(const Ready& event, double now_s);
+  void On(const Beat& event, double now_s);
   void On(const Exited& event, double now_s);
   void On(const Interrupted& event, double now_s);
+  void On(const Asked& event, double now_s);
   void On(const TimePassed&, double) {}
+
+  void JudgeLastEnd(const Exited& event, State was);
+  void ApplyRule(const Exited& event, State was, double ran_s, double now_s);
+  void StartNow(Process* process, double now_s);
+  void TerminateNow(Process* process, Then then, double now_s);
+  void KillNow(Process* process, double now_s);
+
+  // Ends a process that gets nowhere; its rule says what then.
+  void GiveUp(Process* process, const std::string& why, double now_s);
+
   void StartWhatCan(double now_s);
+  void RestartWhatIsDue(double now_s);
   void CheckStartLimits(double now_s);
+  void CheckHangs(double now_s);
   void StopWhatCan(double now_s);
   void KillWhatLingers(double now_s);
+
+  static void Enter(State state, Process* process, double now_s);
   void Fail(int code, const std::string& text);
-  bool AllAre(const std::vector<std::string>& names, State state) const;
+  void Tell(const std::string& text) { actions_.push_back(Say{text}); }
+  bool IsServed(const Process& process) const;
+  bool AllEnded(const std::vector<std::string>& names) const;
   bool AllSourcesEnded() const;
+  template <typename Visit>
+  void ForEachInOrder(const Visit& visit);
 
   std::vector<std::string> order_;  // as given: actions come in this order
   std::map<std::string, Process> processes_;

@@ -5,25 +5,14 @@
 
 #include <stdexcept>
 
+#include "launcher/supervisor_words.h"
+
 namespace declutter::launcher {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-std::string Words(const Action& action) {
-  if (const auto* start = std::get_if<Start>(&action)) return "start " + start->name;
-  if (const auto* terminate = std::get_if<Terminate>(&action)) return "stop " + terminate->name;
-  if (const auto* kill = std::get_if<Kill>(&action)) return "kill " + kill->name;
-  return "say " + std::get<Say>(action).text;
-}
-
-std::vector<std::string> Words(const std::vector<Action>& actions) {
-  std::vector<std::string> words;
-  for (const Action& action : actions) words.push_back(Words(action));
-  return words;
-}
 
 // source -> filter -> exporter, and a recorder downstream of all.
 std::vector<Node> Chain() {

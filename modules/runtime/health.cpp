@@ -18,6 +18,11 @@ void Health::Handled(std::int64_t utime, double processing_ms) {
   max_processing_ms_ = std::max(max_processing_ms_, processing_ms);
 }
 
+void Health::Done() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++num_done_;
+}
+
 void Health::Published(std::int64_t utime) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++num_out_;
@@ -43,6 +48,7 @@ module_status_t Health::Report() {
   const std::lock_guard<std::mutex> lock(mutex_);
   module_status_t status{};
   status.num_in = num_in_;
+  status.num_done = num_done_;
   status.num_out = num_out_;
   status.num_skipped = num_skipped_;
   status.num_rejected = num_rejected_;

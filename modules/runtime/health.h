@@ -13,6 +13,7 @@ class Health {
  public:
   void Took();
   void Handled(std::int64_t utime, double processing_ms);
+  void Done();
   void Published(std::int64_t utime);
   void Skipped(std::int64_t num_frames);
   void Rejected();
@@ -28,6 +29,7 @@ class Health {
  private:
   mutable std::mutex mutex_;
   std::int64_t num_in_ = 0;
+  std::int64_t num_done_ = 0;
   std::int64_t num_out_ = 0;
   std::int64_t num_skipped_ = 0;
   std::int64_t num_rejected_ = 0;

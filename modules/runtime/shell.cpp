@@ -141,6 +141,7 @@ void Shell::Handle(const Delivery& delivery) {
   } catch (const std::runtime_error& error) {
     Reject(subscription.ports.back().channel, error.what());
   }
+  health_.Done();
 }
 
 void Shell::Start() {

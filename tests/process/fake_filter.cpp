@@ -16,6 +16,9 @@ class FakeFilter {
   FakeFilter(const Config& config, runtime::Bus& bus)
       : config_(config), objects_(bus.Advertise(kObjects)) {
     if (config_.mishap() == "hangs_at_start") Hang();
+    bus.OnStart([this] {
+      if (config_.mishap() == "crashes_at_start") std::raise(SIGSEGV);
+    });
     bus.Subscribe<depth_frame_t>(kDepthFrame,
                                  [this, &bus](const depth_frame_t& frame) { Answer(frame, bus); });
   }

@@ -10,15 +10,18 @@ inline std::string Fake(const std::string& program) {
   return std::string(FAKE_FOLDER) + "/" + program;
 }
 
+// A module's block of a graph, with these further fields.
+inline std::string Block(const std::string& name, const std::string& program,
+                         const std::string& fields) {
+  return "module { name: \"" + name + "\" program: \"" + Fake(program) + "\"\n" + fields + "\n}\n";
+}
+
 // source -> filter, lossless, with these fields added to the block of each.
 inline std::string FakeGraph(const TemporaryFolder& folder, const std::string& source_fields,
                              const std::string& filter_fields) {
-  return folder.Write("graph.textproto",
-                      "lossless: true\n"
-                      "module { name: \"source\" program: \"" +
-                          Fake("fake_source") + "\"\n" + source_fields + "\n}\n" +
-                          "module { name: \"filter\" program: \"" + Fake("fake_filter") + "\"\n" +
-                          filter_fields + "\n}\n");
+  return folder.Write("graph.textproto", "lossless: true\n" +
+                                             Block("source", "fake_source", source_fields) +
+                                             Block("filter", "fake_filter", filter_fields));
 }
 
 // Parameters of the two as a module's config.
@@ -27,6 +30,14 @@ inline std::string SourceConfig(const std::string& fields) {
 }
 inline std::string FilterConfig(const std::string& fields) {
   return "config { [type.googleapis.com/declutter.FakeFilterConfig] { " + fields + " } }";
+}
+
+// A camera of 50 Hz -> filter.
+inline std::string LiveGraph(const TemporaryFolder& folder, const std::string& source_fields,
+                             const std::string& filter_fields) {
+  const std::string camera = SourceConfig("num_frames: 100000 period_s: 0.02");
+  return folder.Write("graph.textproto", Block("source", "fake_source", camera + source_fields) +
+                                             Block("filter", "fake_filter", filter_fields));
 }
 
 }  // namespace declutter

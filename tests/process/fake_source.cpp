@@ -4,7 +4,7 @@
 namespace declutter {
 namespace {
 
-// Publishes frames 1, 2, ... each when the objects of the one before are out.
+// Publishes frames 1, 2, ... each when the objects of the one before are out, or as a camera.
 class FakeSource {
  public:
   using Config = FakeSourceConfig;
@@ -18,7 +18,8 @@ class FakeSource {
 
  private:
   std::optional<double> Next(runtime::Bus& bus) {
-    if (released_ < sent_) return 0.01;
+    const bool is_camera = config_.period_s() > 0;
+    if (!is_camera && released_ < sent_) return 0.01;
     if (sent_ == config_.num_frames()) {
       if (config_.fails()) bus.Fail("an input is unreadable");
       return std::nullopt;
@@ -26,7 +27,7 @@ class FakeSource {
     depth_frame_t frame = {};
     frame.utime = ++sent_;
     depth_.Publish(frame);
-    return 0.01;
+    return is_camera ? config_.period_s() : 0.01;
   }
 
   Config config_;

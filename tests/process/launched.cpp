@@ -1,6 +1,7 @@
 #include "tests/process/launched.h"
 
 #include <fcntl.h>
+#include <lcm/eventlog.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -90,6 +91,23 @@ bool Eventually(const std::function<bool()>& condition, double limit_s) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return true;
+}
+
+std::vector<int64_t> UtimesOf(const std::string& channel, const std::string& log) {
+  constexpr int kFingerprint = 8, kUtime = 8;  // [byte], big-endian
+  std::vector<int64_t> utimes;
+  lcm_eventlog_t* events = lcm_eventlog_create(log.c_str(), "r");
+  if (events == nullptr) return utimes;
+  while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(events)) {
+    uint64_t utime = 0;
+    const bool is_asked = event->channel == channel && event->datalen >= kFingerprint + kUtime;
+    const auto* data = static_cast<const uint8_t*>(event->data) + kFingerprint;
+    for (int i = 0; is_asked && i < kUtime; ++i) utime = utime << 8 | data[i];
+    if (is_asked) utimes.push_back(static_cast<int64_t>(utime));
+    lcm_eventlog_free_event(event);
+  }
+  lcm_eventlog_destroy(events);
+  return utimes;
 }
 
 std::string ReadFile(const std::string& path) {

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -57,6 +58,9 @@ std::vector<pid_t> ProcessesWith(const std::string& word);
 
 // True when condition becomes true within limit_s.
 bool Eventually(const std::function<bool()>& condition, double limit_s = 10.0);
+
+// The times that the messages on a channel begin with, in the order of the LCM log.
+std::vector<int64_t> UtimesOf(const std::string& channel, const std::string& log);
 
 std::string ReadFile(const std::string& path);
 

@@ -1,0 +1,37 @@
+#include "launcher/program.h"
+
+#include <signal.h>
+
+#include <utility>
+
+namespace declutter::launcher {
+
+Program::Program(std::vector<std::string> command, std::string log_path)
+    : command_(std::move(command)), log_path_(std::move(log_path)) {}
+
+void Program::Start() {
+  is_ready_ = is_ending_ = has_stderr_ = false;
+  child_ = std::make_unique<ChildProcess>(command_, log_path_);
+  has_stderr_ = true;
+}
+
+void Program::Kill() { Signal(SIGKILL); }
+
+void Program::Signal(int signal) {
+  if (child_) child_->Signal(signal);
+}
+
+void Program::OnTurn(double) {
+  if (has_stderr_) has_stderr_ = child_->ForwardStderr();
+}
+
+std::optional<Ending> Program::Reap() {
+  const auto ending = child_ ? child_->Reap() : std::nullopt;
+  if (!ending) return ending;
+  has_stderr_ = false;
+  return Judge(*ending);
+}
+
+int Program::fd() const { return has_stderr_ ? child_->stderr_fd() : -1; }
+
+}  // namespace declutter::launcher

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "launcher/process.h"
+
+namespace declutter::launcher {
+
+// A Process that is a program of its own. What it prints is logged.
+class Program : public Process {
+ public:
+  // command as for ChildProcess.
+  Program(std::vector<std::string> command, std::string log_path);
+
+  void Start() override;
+  void Kill() override;
+  void OnTurn(double now_s) override;
+  bool is_ready() const override { return is_ready_; }
+  std::optional<Ending> Reap() override;
+  int fd() const override;
+
+ protected:
+  // How its end is to be taken.
+  virtual Ending Judge(const Ending& ending) const = 0;
+
+  pid_t pid() const { return child_ ? child_->pid() : -1; }
+  void Signal(int signal);
+
+  bool is_ready_ = false;
+  bool is_ending_ = false;  // it was asked to end
+
+ private:
+  std::vector<std::string> command_;
+  std::string log_path_;
+  std::unique_ptr<ChildProcess> child_;
+  bool has_stderr_ = false;
+};
+
+}  // namespace declutter::launcher

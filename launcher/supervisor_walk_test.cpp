@@ -1,0 +1,180 @@
+// Every sequence of events up to a length, on small graphs with each restart rule, against what
+// must hold whatever happens.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+
+#include "launcher/supervisor.h"
+#include "launcher/supervisor_words.h"
+
+namespace declutter::launcher {
+namespace {
+
+using When = RestartRule::When;
+
+constexpr double kStep_s = 0.7;  // longer than a first delay, shorter than every limit
+
+// A supervisor with the processes that it believes in.
+class World {
+ public:
+  World(const std::vector<Node>& nodes, bool is_finite)
+      : supervisor_(nodes, is_finite), nodes_(nodes) {
+    Give(TimePassed{});
+  }
+
+  // What can happen now.
+  std::vector<Event> Possible() const {
+    std::vector<Event> events = {TimePassed{}};
+    if (num_signals_ < 2) events.push_back(Interrupted{15});
+    for (const Node& node : nodes_) {
+      if (alive_.count(node.name) == 0) {
+        events.push_back(Asked{Asked::Verb::kStart, node.name});
+        continue;
+      }
+      if (supervisor_.state(node.name) == State::kStarting) events.push_back(Ready{node.name});
+      events.push_back(Asked{Asked::Verb::kStop, node.name});
+      events.push_back(Asked{Asked::Verb::kRestart, node.name});
+      if (killed_.count(node.name) == 0) {
+        events.push_back(Exited{node.name, 0, false, "exit code 0"});
+        events.push_back(Exited{node.name, 1, false, "exit code 1"});
+        events.push_back(Exited{node.name, 2, false, "exit code 2"});
+      }
+      events.push_back(Exited{node.name, 1, true, "signal 9"});
+    }
+    return events;
+  }
+
+  void Give(const Event& event) {
+    now_s_ += std::holds_alternative<TimePassed>(event) ? kStep_s : 0.01;
+    if (std::holds_alternative<Interrupted>(event)) ++num_signals_;
+    if (const auto* exited = std::get_if<Exited>(&event)) {
+      ASSERT_EQ(alive_.erase(exited->name), 1u);
+      killed_.erase(exited->name);
+      has_ended_with_two_ = has_ended_with_two_ || exited->code == 2;
+    }
+    const bool was_stopping = supervisor_.is_stopping();
+    for (const Action& action : supervisor_.Handle(event, now_s_)) Check(action, was_stopping);
+    for (const Node& node : nodes_) CheckState(node.name);
+    ASSERT_EQ(supervisor_.finished(), supervisor_.is_stopping() && alive_.empty());
+    ASSERT_FALSE(was_stopping && !supervisor_.is_stopping());
+  }
+
+  // Everybody obeys from now on: the run must come to its end.
+  void End() {
+    Give(Interrupted{15});
+    for (int turn = 0; turn < 100 && !supervisor_.finished(); ++turn) {
+      std::string name;
+      for (const std::string& alive : alive_) {
+        const State state = supervisor_.state(alive);
+        if (state == State::kTerminating || state == State::kKilled) name = alive;
+      }
+      if (name.empty()) break;
+      Give(Exited{name, 0, false, "exit code 0"});
+    }
+    ASSERT_TRUE(supervisor_.finished());
+    // No failure hides another, and 2 comes only from a process that said so.
+    ASSERT_TRUE(supervisor_.exit_code() != 2 || has_ended_with_two_);
+  }
+
+ private:
+  void Check(const Action& action, bool was_stopping) {
+    if (const auto* start = std::get_if<Start>(&action)) {
+      ASSERT_TRUE(alive_.insert(start->name).second) << "two of " << start->name;
+      ASSERT_FALSE(was_stopping) << start->name << " started at the end";
+    } else if (const auto* terminate = std::get_if<Terminate>(&action)) {
+      ASSERT_EQ(alive_.count(terminate->name), 1u);
+      if (supervisor_.is_stopping()) CheckUpstreamIsGone(terminate->name);
+    } else if (const auto* kill = std::get_if<Kill>(&action)) {
+      ASSERT_EQ(alive_.count(kill->name), 1u);
+      killed_.insert(kill->name);
+    }
+  }
+
+  void CheckUpstreamIsGone(const std::string& name) {
+    for (const Node& node : nodes_) {
+      const auto& consumers = node.downstream;
+      if (std::find(consumers.begin(), consumers.end(), name) == consumers.end()) continue;
+      ASSERT_EQ(alive_.count(node.name), 0u) << name << " stopped before " << node.name;
+    }
+  }
+
+  // The supervisor never believes in a process that is gone, nor forgets one that is there.
+  void CheckState(const std::string& name) {
+    const State state = supervisor_.state(name);
+    const bool lives = state == State::kStarting || state == State::kRunning ||
+                       state == State::kTerminating || state == State::kKilled;
+    ASSERT_EQ(lives, alive_.count(name) == 1) << name;
+  }
+
+  Supervisor supervisor_;
+  std::vector<Node> nodes_;
+  std::set<std::string> alive_;
+  std::set<std::string> killed_;
+  double now_s_ = 0.0;
+  int num_signals_ = 0;
+  bool has_ended_with_two_ = false;
+};
+
+std::vector<Node> Pair(When when, bool is_required) {
+  std::vector<Node> nodes = {{"source", {"sink"}, true}, {"sink", {}}};
+  for (Node& node : nodes) {
+    node.restart = {when, 0.5, 1.0, 2};
+    node.is_required = is_required;
+    node.start_limit_s = 2.0;
+    node.grace_period_s = 1.0;
+    node.hang_limit_s = 2.0;
+  }
+  return nodes;
+}
+
+int WalkAll(const World& world, int num_events) {
+  if (testing::Test::HasFatalFailure()) return 0;
+  World ended = world;
+  ended.End();
+  if (num_events == 0) return 1;
+  int num_walks = 0;
+  for (const Event& event : world.Possible()) {
+    World next = world;
+    next.Give(event);
+    num_walks += WalkAll(next, num_events - 1);
+  }
+  return num_walks;
+}
+
+TEST(SupervisorWalkTest, HoldsInEverySequenceOfFiveEvents) {
+  for (const When when : {When::kNever, When::kOnFailure, When::kAlways}) {
+    for (const bool is_required : {false, true}) {
+      for (const bool is_finite : {false, true}) {
+        EXPECT_GT(WalkAll(World(Pair(when, is_required), is_finite), 5), 10000);
+      }
+    }
+  }
+}
+
+TEST(SupervisorWalkTest, HoldsInLongRandomSequencesOnALargerGraph) {
+  std::mt19937 random(1);
+  for (int walk = 0; walk < 1000 && !HasFatalFailure(); ++walk) {
+    std::vector<Node> nodes = {{"logger", {}},
+                               {"left", {"join", "logger"}, true},
+                               {"right", {"join", "logger"}, true},
+                               {"join", {"sink", "logger"}},
+                               {"sink", {"logger"}}};
+    for (Node& node : nodes) {
+      node.restart = {static_cast<When>(random() % 3), 0.5, 1.0, 3};
+      node.is_required = random() % 2 == 0;
+      node.hang_limit_s = 3.0;
+    }
+    World world(nodes, random() % 2 == 0);
+    for (int i = 0; i < 60 && !HasFatalFailure(); ++i) {
+      const std::vector<Event> events = world.Possible();
+      world.Give(events[random() % events.size()]);
+    }
+    world.End();
+  }
+}
+
+}  // namespace
+}  // namespace declutter::launcher
