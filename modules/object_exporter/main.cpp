@@ -21,6 +21,11 @@ class ObjectExporterModule {
     bus.Subscribe<color_frame_t>(kColorFrame, [this](const color_frame_t& frame) {
       exporter_->AddColor(frame.utime, codec::Decode(frame));
     });
+    if (config.feature_pictures()) {
+      bus.Subscribe<feature_cloud_t>(kFeatures, [this](const feature_cloud_t& features) {
+        exporter_->AddFeatures(codec::Decode(features));
+      });
+    }
     bus.Subscribe<object_list_t>(
         kObjects, [this](const object_list_t& objects) { Export(codec::Decode(objects)); });
   }

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "modules/imaging/png_file.h"
+#include "modules/object_exporter/feature_pictures.h"
 #include "modules/object_exporter/object_line.h"
 #include "modules/object_exporter/overlay.h"
 #include "modules/object_exporter/sensor_size.h"
@@ -62,7 +63,9 @@ std::string AsFileName(const std::string& frame) {
 }  // namespace
 
 ObjectExporter::ObjectExporter(const ObjectExporterConfig& config)
-    : output_(config.output()), pictures_(config.pictures()) {
+    : output_(config.output()),
+      pictures_(config.pictures()),
+      feature_pictures_(config.pictures() && config.feature_pictures()) {
   std::error_code error;
   fs::create_directories(output_, error);
   if (!fs::is_directory(output_)) {
@@ -80,6 +83,10 @@ void ObjectExporter::AddDepth(const DepthFrame& frame) {
 
 void ObjectExporter::AddColor(int64_t utime, const ColorImage& image) {
   if (pictures_) Keep(utime, image, &colors_);
+}
+
+void ObjectExporter::AddFeatures(const FeatureCloud& features) {
+  if (feature_pictures_ && features.width > 0) Keep(features.header.utime, features, &features_);
 }
 
 void ObjectExporter::Export(const ObjectList& list) {
@@ -119,12 +126,19 @@ std::string ObjectExporter::NewPictureName(const std::string& frame) {
 
 void ObjectExporter::WritePictures(const ObjectList& list, const std::string& picture_name) const {
   const fs::path path = output_ / picture_name;
-  const Pictured shown = AtSensorSize(list, Find(list.header.utime, depths_));
+  const DepthFrame* depth = Find(list.header.utime, depths_);
+  const Pictured shown = AtSensorSize(list, depth);
   imaging::WriteGray8Png(path.string() + ".labels.png",
                          {shown.list.camera.width, shown.list.camera.height, shown.list.labels});
   imaging::WriteRgbPng(path.string() + ".overlay.png",
                        DrawOverlay(shown.list, shown.depth ? &*shown.depth : nullptr,
                                    Find(list.header.utime, colors_)));
+  if (const FeatureCloud* features = Find(list.header.utime, features_)) {
+    const auto decimation = depth != nullptr ? depth->decimation : std::nullopt;
+    const FeaturePictures pictures = DrawFeatures(*features, decimation);
+    imaging::WriteRgbPng(path.string() + ".curvature.png", pictures.curvature);
+    imaging::WriteRgbPng(path.string() + ".r_min.png", pictures.r_min);
+  }
 }
 
 void ObjectExporter::WriteLine(const std::string& line) {

@@ -132,6 +132,23 @@ TEST_F(ObjectExporterTest, DrawsADecimatedFrameOverTheSensorsColourOrDepth) {
   EXPECT_THAT(grey.rgb, Each(testing::Gt(0)));
 }
 
+TEST_F(ObjectExporterTest, WritesPicturesOfFeaturesWhenAsked) {
+  FeatureCloud features;
+  features.header.utime = 1;
+  features.width = 4;
+  features.height = 3;
+  for (const bool is_asked : {false, true}) {
+    config_.set_feature_pictures(is_asked);
+    ObjectExporter exporter(config_);
+    exporter.AddFeatures(features);
+    exporter.Export(Frame(1, "a"));
+    for (const std::string picture : {"a.curvature.png", "a.r_min.png"}) {
+      ASSERT_EQ(std::filesystem::exists(Path(picture)), is_asked) << picture;
+    }
+  }
+  EXPECT_EQ(imaging::ReadRgbPng(Path("a.curvature.png")).width, 4);
+}
+
 TEST_F(ObjectExporterTest, IgnoresAFrameThatWasWritten) {
   ObjectExporter exporter(config_);
   exporter.Export(Frame(0, "a"));
