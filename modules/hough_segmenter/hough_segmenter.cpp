@@ -20,7 +20,8 @@ uint64_t ComponentSeed(uint64_t seed, int64_t utime, int component) {
 
 }  // namespace
 
-HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config) : config_(config) {}
+HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config, SideDetector detect)
+    : config_(config), detect_(detect) {}
 
 HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
                                        const FeatureCloud& features) const {
@@ -37,8 +38,8 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
                 static_cast<float>(config_.cell_height_m()));
   SideDetections sides;
   for (int c = 0; c < features.num_components; ++c) {
-    DetectSides(config_, list.mode, cells[static_cast<size_t>(c)], c,
-                ComponentSeed(config_.seed(), features.header.utime, c), &sides);
+    detect_(config_, list.mode, cells[static_cast<size_t>(c)], c,
+            ComponentSeed(config_.seed(), features.header.utime, c), &sides);
   }
   Surfaces surfaces{std::move(sides.faces), std::move(sides.arcs),
                     FindTopPatches(points, features.width, features.height, features.thinning,

@@ -4,6 +4,7 @@
 #include "modules/geometry/solid.h"
 #include "modules/geometry/tabletop.h"
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
+#include "modules/hough_segmenter/side_voting.h"
 
 namespace declutter {
 
@@ -11,13 +12,16 @@ namespace declutter {
 // 5).
 class HoughSegmenter {
  public:
-  explicit HoughSegmenter(const HoughSegmenterConfig& config);
+  // Everything but `detect`, how faces and arcs are found in a component, is the same for every
+  // segmenter that works on its sides.
+  explicit HoughSegmenter(const HoughSegmenterConfig& config, SideDetector detect = DetectSides);
 
   // Hypotheses in C, best first. Tabletop and features must be of the same frame.
   HypothesisList Segment(const Tabletop& tabletop, const FeatureCloud& features) const;
 
  private:
   HoughSegmenterConfig config_;
+  SideDetector detect_;
 };
 
 }  // namespace declutter

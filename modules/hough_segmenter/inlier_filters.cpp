@@ -60,13 +60,17 @@ void KeepOneRun(const std::vector<SideCell>& cells, float max_gap_m, FeatureMode
   });
 }
 
-void KeepArcsAtOneHeight(const std::vector<SideCell>& cells, float max_gap_m, CircleFit* fit) {
+void KeepOneHeight(const std::vector<SideCell>& cells, float max_gap_m, CircleFit* fit) {
   const auto height = [](const SideCell& cell) { return cell.z; };
   const std::vector<Span> heights = Clusters(cells, fit->inliers, 2 * max_gap_m, height);
   if (heights.empty()) return;
   KeepIf(cells, &fit->inliers, [&](const SideCell& cell) {
     return cell.z >= heights[0].first && cell.z <= heights[0].second;
   });
+}
+
+void KeepArcs(const std::vector<SideCell>& cells, float max_gap_m, size_t max_arcs,
+              CircleFit* fit) {
   // The camera sees at most half of the outside: angles around the mean direction do not wrap.
   Eigen::Vector2f mean = Eigen::Vector2f::Zero();
   for (int i : fit->inliers) {
@@ -79,18 +83,17 @@ void KeepArcsAtOneHeight(const std::vector<SideCell>& cells, float max_gap_m, Ci
     return std::remainder(std::atan2(q.y(), q.x()) - reference, 2 * static_cast<float>(M_PI));
   };
   const float max_gap_rad = 2 * max_gap_m / std::max(fit->model.r, max_gap_m);
-  const std::vector<Span> arcs = Clusters(cells, fit->inliers, max_gap_rad, angle);
-  if (arcs.size() > 2) {
+  std::vector<Span> arcs = Clusters(cells, fit->inliers, max_gap_rad, angle);
+  if (arcs.size() > max_arcs) {
+    arcs.resize(max_arcs);
     KeepIf(cells, &fit->inliers, [&](const SideCell& cell) {
       const float a = angle(cell);
-      return (a >= arcs[0].first && a <= arcs[0].second) ||
-             (a >= arcs[1].first && a <= arcs[1].second);
+      return std::any_of(arcs.begin(), arcs.end(),
+                         [a](const Span& arc) { return a >= arc.first && a <= arc.second; });
     });
   }
   fit->model.arc = 0;
-  for (size_t i = 0; i < std::min<size_t>(arcs.size(), 2); ++i) {
-    fit->model.arc += arcs[i].second - arcs[i].first;
-  }
+  for (const Span& arc : arcs) fit->model.arc += arc.second - arc.first;
 }
 
 void KeepOneRadius(const std::vector<SideCell>& cells, float max_step_m, CircleFit* fit) {

@@ -13,9 +13,12 @@ namespace declutter {
 void KeepOneRun(const std::vector<SideCell>& cells, float max_gap_m, FeatureMode mode,
                 LineFit* fit);
 
-// Circle: at most two clusters of inliers, at the same height; inliers of another height are
-// dropped, of more than two arcs the two longest stay.
-void KeepArcsAtOneHeight(const std::vector<SideCell>& cells, float max_gap_m, CircleFit* fit);
+// Circle: inliers are at the same height; those of another height are dropped.
+void KeepOneHeight(const std::vector<SideCell>& cells, float max_gap_m, CircleFit* fit);
+
+// Circle: at most `max_arcs` clusters of inliers, two in the paper; the heaviest stay. Sets the
+// model's arc.
+void KeepArcs(const std::vector<SideCell>& cells, float max_gap_m, size_t max_arcs, CircleFit* fit);
 
 // Circle: a cylinder on a wider one has inliers at another distance from the axis above some
 // height. Where the mean distances below and above differ by more than max_step_m, the part with

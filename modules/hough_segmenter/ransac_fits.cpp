@@ -2,18 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "modules/hough_segmenter/inlier_filters.h"
 
 namespace declutter {
 namespace {
 
-constexpr float kBucketSide = 0.05f;       // [m] squares in which the partner of a sample is drawn
-constexpr size_t kMaxScoredCells = 400;    // cells that decide between samples
-constexpr float kMinBaseline = 0.008f;     // [m] of the two cells of a sample
-constexpr int kMaxDraws = 12;              // of a partner, before a sample is given up
-constexpr float kMinKappaLength = 0.045f;  // [m] of a line whose curvature says something
-constexpr float kMaxRadiusStep = 0.003f;   // [m] between the lower and upper part of a cylinder
+constexpr float kBucketSide = 0.05f;        // [m] squares in which the partner of a sample is drawn
+constexpr size_t kMaxScoredCells = 400;     // cells that decide between samples
+constexpr float kMinBaseline = 0.008f;      // [m] of the two cells of a sample
+constexpr int kMaxDraws = 12;               // of a partner, before a sample is given up
+constexpr float kMinKappaLength = 0.045f;   // [m] of a line whose curvature says something
+constexpr double kMinCosUnfiltered = -1e6;  // so far below every cosine that all agree alike
+constexpr float kNoLimit = std::numeric_limits<float>::infinity();
+constexpr float kMaxRadiusStep = 0.003f;  // [m] between the lower and upper part of a cylinder
 
 }  // namespace
 
@@ -22,7 +25,8 @@ SideFitter::SideFitter(const HoughSegmenterConfig& config, FeatureMode mode,
     : config_(config),
       mode_(mode),
       cells_(cells),
-      min_cos_(static_cast<float>(std::cos(config.max_normal_angle_rad()))),
+      min_cos_(static_cast<float>(config.filter_normals() ? std::cos(config.max_normal_angle_rad())
+                                                          : kMinCosUnfiltered)),
       random_(seed) {
   if (cells.empty()) return;
   Eigen::Vector2f low = cells[0].p;
@@ -96,30 +100,39 @@ float SideFitter::Agreement(const SideCell& cell, const CircleModel& circle) con
 }
 
 void SideFitter::Filter(LineFit* fit) const {
-  if (mode_ == FeatureMode::kPaper) {
+  if (mode_ == FeatureMode::kPaper && config_.filter_curvature()) {
     KeepFlat(cells_, static_cast<float>(config_.max_curvature_of_flat()), fit);
   }
-  KeepOneRun(cells_, static_cast<float>(config_.max_gap_m()), mode_, fit);
+  if (config_.filter_runs()) {
+    KeepOneRun(cells_, static_cast<float>(config_.max_gap_m()), mode_, fit);
+  }
 }
 
 void SideFitter::Filter(CircleFit* fit) const {
+  const auto max_gap = static_cast<float>(config_.max_gap_m());
   if (mode_ == FeatureMode::kPaper) {
-    KeepRound(cells_, static_cast<float>(config_.max_curvature_of_flat()),
-              static_cast<float>(config_.max_radius_difference_m()), fit);
+    KeepRound(
+        cells_,
+        config_.filter_curvature() ? static_cast<float>(config_.max_curvature_of_flat())
+                                   : -kNoLimit,
+        config_.filter_radius() ? static_cast<float>(config_.max_radius_difference_m()) : kNoLimit,
+        fit);
   }
-  KeepArcsAtOneHeight(cells_, static_cast<float>(config_.max_gap_m()), fit);
-  KeepOneRadius(cells_, kMaxRadiusStep, fit);
+  if (config_.filter_heights()) KeepOneHeight(cells_, max_gap, fit);
+  KeepArcs(cells_, max_gap, config_.filter_arcs() ? 2 : cells_.size(), fit);
+  if (config_.filter_heights()) KeepOneRadius(cells_, kMaxRadiusStep, fit);
 }
 
 bool SideFitter::IsPossible(const LineFit& fit) const {
   // Within the reach of the features from its outlines a narrow face looks round.
-  return mode_ == FeatureMode::kPaper || fit.model.length() <= kMinKappaLength ||
+  return mode_ == FeatureMode::kPaper || !config_.filter_curvature() ||
+         fit.model.length() <= kMinKappaLength ||
          MedianKappa(cells_, fit.inliers) <= config_.max_kappa_of_flat();
 }
 
 bool SideFitter::IsPossible(const CircleFit& fit) const {
   if (fit.model.r < config_.min_radius_m() || fit.model.r > config_.max_radius_m()) return false;
-  return mode_ == FeatureMode::kPaper ||
+  return mode_ == FeatureMode::kPaper || !config_.filter_radius() ||
          MedianKappa(cells_, fit.inliers) * fit.model.r >= config_.min_kappa_radius();
 }
 

@@ -14,34 +14,6 @@ void Remove(const std::vector<int>& inliers, std::vector<char>* is_free) {
   for (int i : inliers) (*is_free)[static_cast<size_t>(i)] = 0;
 }
 
-// One iteration: fits, takes the better supported model, removes its inliers temporarily and fits
-// again until too few points remain.
-void CastVotes(SideFitter* fitter, std::vector<char> is_free, Votes* votes) {
-  while (true) {
-    std::optional<LineFit> line = fitter->FitLine(is_free);
-    std::optional<CircleFit> circle = fitter->FitCircle(is_free);
-    if (!line && !circle) return;
-    if (line && (!circle || line->support >= circle->support)) {
-      Remove(line->inliers, &is_free);
-      votes->lines.Add(std::move(*line));
-    } else {
-      Remove(circle->inliers, &is_free);
-      votes->circles.Add(std::move(*circle));
-    }
-  }
-}
-
-template <typename Model>
-Detection<Model> MakeDetection(const Fit<Model>& fit, int component, int num_votes) {
-  Detection<Model> detection;
-  detection.model = fit.model;
-  detection.component = component;
-  detection.num_votes = num_votes;
-  detection.num_points = static_cast<int>(fit.num_points);
-  detection.agreement = fit.support / fit.num_points;
-  return detection;
-}
-
 // Turns the highest peak of a space into a detection and removes what it explains.
 template <typename Model>
 void TakePeak(const SideFitter& fitter, int component,
@@ -56,6 +28,22 @@ void TakePeak(const SideFitter& fitter, int component,
 
 }  // namespace
 
+SideFits FitSides(SideFitter* fitter, std::vector<char> is_free) {
+  SideFits fits;
+  while (true) {
+    std::optional<LineFit> line = fitter->FitLine(is_free);
+    std::optional<CircleFit> circle = fitter->FitCircle(is_free);
+    if (!line && !circle) return fits;
+    if (line && (!circle || line->support >= circle->support)) {
+      Remove(line->inliers, &is_free);
+      fits.lines.push_back(std::move(*line));
+    } else {
+      Remove(circle->inliers, &is_free);
+      fits.circles.push_back(std::move(*circle));
+    }
+  }
+}
+
 void DetectSides(const HoughSegmenterConfig& config, FeatureMode mode,
                  const std::vector<SideCell>& cells, int component, uint64_t seed,
                  SideDetections* detections) {
@@ -67,7 +55,9 @@ void DetectSides(const HoughSegmenterConfig& config, FeatureMode mode,
     num_before = num_detections();
     Votes votes;
     for (int iteration = 0; iteration < config.num_iterations(); ++iteration) {
-      CastVotes(&fitter, is_free, &votes);
+      SideFits fits = FitSides(&fitter, is_free);
+      for (LineFit& line : fits.lines) votes.lines.Add(std::move(line));
+      for (CircleFit& circle : fits.circles) votes.circles.Add(std::move(circle));
     }
     while (true) {
       const auto line = votes.lines.HighestPeak();

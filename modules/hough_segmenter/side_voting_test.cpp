@@ -158,7 +158,8 @@ TEST(InlierFilters, DropsArcsOfAnotherHeight) {
   fit.model.c = {0, 0.7f};
   fit.model.r = 0.04f;
   fit.inliers = AllOf(cells);
-  KeepArcsAtOneHeight(cells, 0.015f, &fit);
+  KeepOneHeight(cells, 0.015f, &fit);
+  KeepArcs(cells, 0.015f, 2, &fit);
   EXPECT_THAT(fit.inliers, SizeIs(num_below));
   EXPECT_NEAR(fit.model.arc, M_PI, 0.2);
 }
@@ -180,6 +181,67 @@ TEST(InlierFilters, PaperModeDividesFlatFromRoundByCurvatureAndRadius) {
   KeepRound(cells, 0.010f, 0.020f, &circle);
   EXPECT_THAT(line.inliers, testing::ElementsAre(0, 3));
   EXPECT_THAT(circle.inliers, testing::ElementsAre(2));
+}
+
+// Points that a model keeps with all filters and without one of them, in default mode.
+template <typename Model>
+std::pair<float, float> NumKept(const std::vector<SideCell>& cells, const Model& model,
+                                void (HoughSegmenterConfig::*set_filter)(bool)) {
+  const std::vector<char> is_free(cells.size(), 1);
+  HoughSegmenterConfig config;
+  const auto num_kept = [&] {
+    const auto fit = SideFitter(config, FeatureMode::kDefault, cells, 1).Refit(model, is_free);
+    return fit ? fit->num_points : 0;
+  };
+  const float with = num_kept();
+  (config.*set_filter)(false);
+  return {with, num_kept()};
+}
+
+TEST(InlierFilters, OfALineCanBeSwitchedOffOneByOne) {
+  LineModel line;
+  line.n = {0, -1};
+  line.rho = -0.7f;
+  std::vector<SideCell> cells;
+  AddFace(0, 0.05f, 0.7f, &cells);
+  AddFace(0.09f, 0.20f, 0.7f, &cells);
+  const float num_all = NumPoints(cells, AllOf(cells));
+  const auto runs = NumKept(cells, line, &HoughSegmenterConfig::set_filter_runs);
+  EXPECT_THAT(runs, testing::Pair(testing::AllOf(testing::Gt(0), testing::Lt(num_all)), num_all));
+  cells.clear();
+  AddFace(0, 0.20f, 0.7f, &cells);
+  const float num_face = NumPoints(cells, AllOf(cells));
+  for (SideCell& cell : cells) cell.n = {1, 0};
+  EXPECT_THAT(NumKept(cells, line, &HoughSegmenterConfig::set_filter_normals),
+              testing::Pair(0, num_face));
+  for (SideCell& cell : cells) cell.n = {0, -1};
+  for (SideCell& cell : cells) cell.kappa = 20;
+  EXPECT_THAT(NumKept(cells, line, &HoughSegmenterConfig::set_filter_curvature),
+              testing::Pair(0, num_face));
+}
+
+TEST(InlierFilters, OfACircleCanBeSwitchedOffOneByOne) {
+  CircleModel circle;
+  circle.c = {0, 0.7f};
+  circle.r = 0.1f;
+  std::vector<SideCell> half;
+  AddArc(circle.c, circle.r, 0.01f, &half);
+  std::vector<SideCell> cells;  // three parts of it
+  for (const SideCell& cell : half) {
+    const float x = std::abs(cell.p.x());
+    if (x < 0.02f || x > 0.07f) cells.push_back(cell);
+  }
+  const float num_all = NumPoints(cells, AllOf(cells));
+  EXPECT_THAT(NumKept(cells, circle, &HoughSegmenterConfig::set_filter_arcs),
+              testing::Pair(testing::AllOf(testing::Gt(0), testing::Lt(num_all)), num_all));
+  cells = half;
+  AddArc(circle.c, circle.r, 0.20f, &cells);
+  const float num_both = NumPoints(cells, AllOf(cells));
+  EXPECT_THAT(NumKept(cells, circle, &HoughSegmenterConfig::set_filter_heights),
+              testing::Pair(testing::FloatEq(0.5f * num_both), num_both));
+  for (SideCell& cell : half) cell.kappa = 0;
+  EXPECT_THAT(NumKept(half, circle, &HoughSegmenterConfig::set_filter_radius),
+              testing::Pair(0, NumPoints(half, AllOf(half))));
 }
 
 TEST(ParameterSpace, PeakIsTheDensestPlaceNotTheStrongestVote) {

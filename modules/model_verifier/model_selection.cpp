@@ -80,7 +80,7 @@ class Selection {
           std::max_element(candidates_.begin(), candidates_.end(),
                            [](const Candidate& a, const Candidate& b) { return a.gain < b.gain; });
       if (best->gain < config_.min_explained_px()) break;
-      if (RefineRivals(*best)) continue;
+      if (config_.refine() && RefineRivals(*best)) continue;
       selected.push_back(std::move(*best));
       candidates_.erase(best);
       Take(selected.back());
