@@ -135,6 +135,24 @@ TEST_F(GraphTest, RunsWithTheFeaturesOfThePaper) {
   EXPECT_THAT(Frames(output_), ElementsAre("one"));
 }
 
+TEST_F(GraphTest, RunsWithASegmenterThatDoesNotVote) {
+  graph_ = "single_shot.textproto";
+  ASSERT_EQ(Run(RenderScene("one"), output_).code, 0);
+  const json objects = Lines(output_).at(0).at("objects");
+  ASSERT_EQ(objects.size(), 2u);
+  EXPECT_EQ(TheOnly("cylinder", objects).at("votes"), 1);
+}
+
+TEST_F(GraphTest, DrawsTheFeaturesWhenAsked) {
+  const Outcome outcome =
+      Run(RenderScene("one"), output_, {"--set", "object_exporter.feature_pictures=true"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const std::string picture : {"curvature", "r_min"}) {
+    const ColorImage image = imaging::ReadRgbPng(output_ + "/one." + picture + ".png");
+    EXPECT_TRUE(std::any_of(image.rgb.begin(), image.rgb.end(), [](int c) { return c > 0; }));
+  }
+}
+
 // Of each real recording, one object that stands free.
 class RecordingTest : public GraphTest, public testing::WithParamInterface<const char*> {};
 
