@@ -2,18 +2,25 @@
 # Measures how well objects are found: tests/evaluate.sh [--set module.field=value]... [DIR]...
 # Each DIR is a folder of scenes with truth; without one, the real recordings in DECLUTTER_DATA and
 # freshly rendered dense scenes. --set goes to the graph. Reports lie in logs/evaluate/.
+#        tests/evaluate.sh --paper_tables
+# repeats the paper's experiments on rendered scenes instead: Table 2, Figure 4 and Table 3.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 "$here/launcher/setup.sh"
 
 settings=()
 folders=()
+paper_tables=false
 while (($# > 0)); do
   case "$1" in
     --set)
       (($# > 1)) || { echo "evaluate.sh: --set needs a value" >&2; exit 2; }
       settings+=(--set "$2")
       shift 2
+      ;;
+    --paper_tables)
+      paper_tables=true
+      shift
       ;;
     --*)
       echo "evaluate.sh: unknown option $1" >&2
@@ -33,6 +40,12 @@ cd "$here"
 out=logs/evaluate
 rm -rf "$out"
 mkdir -p "$out"
+
+if "$paper_tables"; then
+  build/bin/paper_tables config/scenes/demo.textproto config/scenes/dense.textproto \
+    "$out/paper_tables.json" | tee "$out/paper_tables.txt"
+  exit
+fi
 
 if ((${#folders[@]} == 0)); then
   if [[ -n "$data" ]]; then
