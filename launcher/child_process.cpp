@@ -33,7 +33,7 @@ void WriteAll(int fd, const std::string& text) {
 }
 
 // Between fork and exec: only calls that are safe in a child of a process with threads.
-[[noreturn]] void Become(char* const argv[], pid_t parent, int log_fd, int stderr_fd,
+[[noreturn]] void Become(char* const argv[], pid_t parent, int stdin_fd, int log_fd, int stderr_fd,
                          int fault_fd) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // The parent may have died before the line above: then nobody would end us.
@@ -43,8 +43,7 @@ void WriteAll(int fd, const std::string& text) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   signal(SIGPIPE, SIG_DFL);
-  const int null_fd = open("/dev/null", O_RDONLY);
-  dup2(null_fd, STDIN_FILENO);
+  dup2(stdin_fd, STDIN_FILENO);
   dup2(log_fd, STDOUT_FILENO);
   dup2(stderr_fd, STDERR_FILENO);
   execv(argv[0], argv);
@@ -71,21 +70,23 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::s
   std::vector<char*> argv;
   for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
+  const auto [stdin_read_end, stdin_write_end] = OpenPipe();
+  stdin_fd_ = stdin_write_end;
   const auto [read_end, write_end] = OpenPipe();
   const auto [fault_read_end, fault_write_end] = OpenPipe();
   stderr_fd_ = read_end;
   fcntl(stderr_fd_, F_SETFL, O_NONBLOCK);
   const pid_t parent = getpid();
   pid_ = fork();
-  if (pid_ == 0) Become(argv.data(), parent, log_fd_, write_end, fault_write_end);
+  if (pid_ == 0) Become(argv.data(), parent, stdin_read_end, log_fd_, write_end, fault_write_end);
+  close(stdin_read_end);
   close(write_end);
   close(fault_write_end);
   const int fault = pid_ < 0 ? errno : ExecFault(fault_read_end);
   close(fault_read_end);
   if (fault == 0) return;
   if (pid_ > 0) waitpid(pid_, nullptr, 0);
-  close(stderr_fd_);
-  close(log_fd_);
+  CloseAll();
   throw std::runtime_error(command[0] + ": " + strerror(fault));
 }
 
@@ -94,8 +95,19 @@ ChildProcess::~ChildProcess() {
     kill(-pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
   }
-  close(stderr_fd_);
-  close(log_fd_);
+  CloseAll();
+}
+
+void ChildProcess::CloseAll() {
+  for (const int fd : {stdin_fd_, stderr_fd_, log_fd_}) {
+    if (fd >= 0) close(fd);
+  }
+}
+
+void ChildProcess::Send(const std::string& text) {
+  if (stdin_fd_ < 0) return;
+  WriteAll(stdin_fd_, text);
+  close(std::exchange(stdin_fd_, -1));
 }
 
 bool ChildProcess::ForwardStderr() {

@@ -16,7 +16,7 @@ struct Ending {
 };
 
 // A child in a process group of its own that dies with the thread that started it, however that
-// ends. Its stdin is empty; what it prints goes to a log file, stderr to ours as well.
+// ends. What it prints goes to a log file, stderr to ours as well; its stdin is what is sent to it.
 class ChildProcess {
  public:
   // Starts command[0], a path, with the arguments command[1...], appending to log_path. Throws
@@ -34,6 +34,9 @@ class ChildProcess {
   // Copies what the child has written to stderr, by whole lines. False at its end.
   bool ForwardStderr();
 
+  // Writes to its stdin, once, and closes that.
+  void Send(const std::string& text);
+
   // Sends a signal to the child and all it has started.
   void Signal(int signal);
 
@@ -42,8 +45,10 @@ class ChildProcess {
 
  private:
   void Forward(const std::string& text);
+  void CloseAll();
 
   pid_t pid_ = -1;
+  int stdin_fd_ = -1;
   int stderr_fd_ = -1;
   int log_fd_ = -1;
   std::string line_;  // the last one, until it is complete

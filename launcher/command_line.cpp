@@ -1,5 +1,6 @@
 #include "launcher/command_line.h"
 
+#include <algorithm>
 #include <functional>
 
 #include "modules/runtime/suggestion.h"
@@ -23,40 +24,91 @@ constexpr const char* kHelp = R"(launcher: runs a graph of modules
       --url URL                  LCM network (else LCM_DEFAULT_URL, else one of its own)
       --log_dir DIR              where the folder of this run is made (else logs of the project)
 
-  Ends with 0 when all went well, also when a signal ends a live graph; with 128 + the signal's
-  number when it cuts a lossless graph short; else with the code of the first module that failed
-  (1: failure or crash, 2: bad configuration).
+  Of the graph that was started last, or of the one with the run folder --run DIR:
+
+  launcher status [--watch]
+      A line for each process: state, restarts, load, frames in, out and lost, time per frame.
+  launcher start MODULE, launcher stop MODULE, launcher restart MODULE
+      Returns when it runs or has ended; with 1 when it does not come up.
+  launcher swap MODULE PROGRAM [--set MODULE.FIELD=VALUE]...
+      Lets PROGRAM, or the same one with other parameters, take over from MODULE without losing a
+      frame; MODULE goes on when PROGRAM does not get ready.
+  launcher logs MODULE [--follow]
+      What it has printed.
+
+  run ends with 0 when all went well, also when a signal ends a live graph; with 128 + the signal's
+  number when it cuts a lossless graph short; else with the code of the first required module that
+  failed (1: failure or crash, 2: bad configuration).
 )";
+
+struct VerbRule {
+  std::string word;
+  Verb verb;
+  std::vector<std::pair<std::string, std::string CommandLine::*>> operands;
+};
+
+const std::vector<VerbRule>& VerbRules() {
+  static const std::vector<VerbRule> rules = {
+      {"check", Verb::kCheck, {{"a graph", &CommandLine::graph}}},
+      {"run", Verb::kRun, {{"a graph", &CommandLine::graph}}},
+      {"status", Verb::kStatus, {}},
+      {"start", Verb::kStart, {{"a module", &CommandLine::module}}},
+      {"stop", Verb::kStop, {{"a module", &CommandLine::module}}},
+      {"restart", Verb::kRestart, {{"a module", &CommandLine::module}}},
+      {"swap",
+       Verb::kSwap,
+       {{"a module", &CommandLine::module}, {"a program", &CommandLine::program}}},
+      {"logs", Verb::kLogs, {{"a module", &CommandLine::module}}},
+  };
+  return rules;
+}
+
+using VerbSet = std::vector<Verb>;
 
 struct Option {
   std::string flag;
-  bool is_run_only;
+  VerbSet verbs;  // that know it
   std::function<void(const std::string& value, CommandLine*)> apply;
+  bool has_value = true;
 };
 
-void SetOnce(const std::string& value, std::string* field) {
-  if (!field->empty()) throw ConfigError("given twice");
-  if (value.empty()) throw ConfigError("must not be empty");
-  *field = value;
+Option Once(const std::string& flag, const VerbSet& verbs, std::string CommandLine::*field) {
+  return {flag, verbs, [field](const std::string& value, CommandLine* line) {
+            if (!(line->*field).empty()) throw ConfigError("given twice");
+            if (value.empty()) throw ConfigError("must not be empty");
+            line->*field = value;
+          }};
 }
 
 const std::vector<Option>& Options() {
-  using Value = const std::string&;
+  const VerbSet run = {Verb::kRun};
+  const VerbSet asking = {Verb::kStatus,  Verb::kStart, Verb::kStop,
+                          Verb::kRestart, Verb::kSwap,  Verb::kLogs};
+  const auto follow = [](const std::string&, CommandLine* line) { line->follows = true; };
   static const std::vector<Option> options = {
-      {"--set", false, [](Value value, CommandLine* l) { l->assignments.push_back(value); }},
-      {"--record", true, [](Value value, CommandLine* l) { SetOnce(value, &l->record); }},
-      {"--replay", true, [](Value value, CommandLine* l) { SetOnce(value, &l->replay); }},
-      {"--from", true, [](Value value, CommandLine* l) { SetOnce(value, &l->from); }},
-      {"--url", true, [](Value value, CommandLine* l) { SetOnce(value, &l->url); }},
-      {"--log_dir", true, [](Value value, CommandLine* l) { SetOnce(value, &l->logs); }},
+      {"--set",
+       {Verb::kCheck, Verb::kRun, Verb::kSwap},
+       [](const std::string& value, CommandLine* line) { line->assignments.push_back(value); }},
+      Once("--record", run, &CommandLine::record),
+      Once("--replay", run, &CommandLine::replay),
+      Once("--from", run, &CommandLine::from),
+      Once("--url", run, &CommandLine::url),
+      Once("--log_dir", run, &CommandLine::logs),
+      Once("--run", asking, &CommandLine::run_folder),
+      {"--watch", {Verb::kStatus}, follow, false},
+      {"--follow", {Verb::kLogs}, follow, false},
+      {"-f", {Verb::kLogs}, follow, false},
   };
   return options;
 }
 
-Verb ParseVerb(const std::string& word) {
-  if (word == "check") return Verb::kCheck;
-  if (word == "run") return Verb::kRun;
-  throw ConfigError("unknown verb '" + word + "'" + runtime::Suggestion(word, {"check", "run"}) +
+const VerbRule& FindVerb(const std::string& word) {
+  std::vector<std::string> words;
+  for (const VerbRule& rule : VerbRules()) {
+    if (rule.word == word) return rule;
+    words.push_back(rule.word);
+  }
+  throw ConfigError("unknown verb '" + word + "'" + runtime::Suggestion(word, words) +
                     "; --help tells more");
 }
 
@@ -76,7 +128,14 @@ size_t ApplyOption(const std::vector<std::string>& arguments, size_t i, CommandL
   const std::string flag = arguments[i].substr(0, equals);
   try {
     const Option& option = FindOption(flag);
-    if (option.is_run_only && line->verb != Verb::kRun) throw ConfigError("is for run only");
+    if (std::count(option.verbs.begin(), option.verbs.end(), line->verb) == 0) {
+      throw ConfigError("is not for " + line->word);
+    }
+    if (!option.has_value) {
+      if (equals != std::string::npos) throw ConfigError("takes no value");
+      option.apply("", line);
+      return i;
+    }
     if (equals != std::string::npos) {
       option.apply(arguments[i].substr(equals + 1), line);
       return i;
@@ -95,22 +154,23 @@ bool IsHelp(const std::string& word) { return word == "--help" || word == "-h"; 
 
 CommandLine ParseCommandLine(const std::vector<std::string>& arguments) {
   CommandLine line;
-  for (const std::string& argument : arguments) {
-    if (IsHelp(argument)) return line;
-  }
+  if (std::any_of(arguments.begin(), arguments.end(), IsHelp)) return line;
   if (arguments.empty()) throw ConfigError("check or run what? --help tells more");
-  line.verb = ParseVerb(arguments[0]);
+  const VerbRule& rule = FindVerb(arguments[0]);
+  line.verb = rule.verb;
+  line.word = rule.word;
+  auto operand = rule.operands.begin();
   for (size_t i = 1; i < arguments.size(); ++i) {
-    if (arguments[i].rfind("--", 0) == 0) {
+    if (arguments[i].rfind('-', 0) == 0) {
       i = ApplyOption(arguments, i, &line);
-    } else if (line.graph.empty()) {
-      line.graph = arguments[i];
+    } else if (operand != rule.operands.end()) {
+      line.*(operand++)->second = arguments[i];
     } else {
-      throw ConfigError("one graph at a time, not also " + arguments[i]);
+      throw ConfigError(rule.word + ": what is " + arguments[i] + "?");
     }
   }
   if (!line.from.empty() && line.replay.empty()) throw ConfigError("--from: needs --replay");
-  if (line.graph.empty()) throw ConfigError(arguments[0] + " needs a graph");
+  if (operand != rule.operands.end()) throw ConfigError(rule.word + " needs " + operand->first);
   return line;
 }
 

@@ -8,16 +8,21 @@
 namespace declutter::launcher {
 
 struct CommandLine {
-  enum class Verb { kHelp, kCheck, kRun };
+  enum class Verb { kHelp, kCheck, kRun, kStatus, kStart, kStop, kRestart, kSwap, kLogs };
 
   Verb verb = Verb::kHelp;
+  std::string word;                      // the verb as written
   std::string graph;                     // file
+  std::string module;                    // of the running graph
+  std::string program;                   // to swap in
   std::vector<std::string> assignments;  // of --set, in order
   std::string record;                    // log to write; empty: none
   std::string replay;                    // log to read in place of the sources; empty: none
   std::string from;                      // first module of a replay; empty: not given
   std::string url;                       // empty: not given
   std::string logs;                      // folder; empty: not given
+  std::string run_folder;                // of the running graph; empty: not given
+  bool follows = false;                  // prints what is new until a signal comes
 };
 
 // arguments: without the program's name. Throws runtime::ConfigError.

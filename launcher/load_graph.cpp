@@ -34,8 +34,12 @@ std::optional<std::string> ReadText(const std::string& path) {
 // Loads one graph, step by step; each step needs those before it to be without fault.
 class GraphLoader {
  public:
-  GraphLoader(const std::string& path, std::vector<Fault>* faults)
-      : folder_(fs::absolute(path).parent_path()), path_(path), faults_(faults) {}
+  GraphLoader(const std::string& path, const std::map<std::string, std::string>& swapped,
+              std::vector<Fault>* faults)
+      : folder_(fs::absolute(path).parent_path()),
+        path_(path),
+        swapped_(swapped),
+        faults_(faults) {}
 
   bool ReadFile();
   bool FindPrograms();
@@ -64,6 +68,7 @@ class GraphLoader {
 
   fs::path folder_;
   std::string path_;
+  std::map<std::string, std::string> swapped_;  // module -> program
   std::vector<Fault>* faults_;
   std::unique_ptr<GraphText> text_;
   ProgramCatalog catalog_;
@@ -100,7 +105,10 @@ bool GraphLoader::CheckName(int i) {
 }
 
 void GraphLoader::FindProgram(int i) {
-  const std::string name = module(i).has_program() ? module(i).program() : module(i).name();
+  const auto swapped = swapped_.find(module(i).name());
+  const std::string name = swapped != swapped_.end() ? swapped->second
+                           : module(i).has_program() ? module(i).program()
+                                                     : module(i).name();
   const std::string where = text_->Where(i, module(i).has_program() ? "program" : "name");
   const bool is_path = name.find('/') != std::string::npos;
   const std::string path = is_path ? PathFromGraph(name) : launcher::FindProgram(name).value_or("");
@@ -151,6 +159,7 @@ Config GraphLoader::ReadConfig(int i) {
   if (!module(i).has_config()) return config;
   const Config layer = catalog_.NewMessage(type);
   if (!module(i).config().UnpackTo(layer.get())) {
+    if (swapped_.count(module(i).name()) != 0) return config;
     Add(text_->Where(i, "config"), "parameters of " + module(i).name() + " are of type " +
                                        type->full_name() + ", not " +
                                        module(i).config().type_url());
@@ -257,8 +266,9 @@ ResolvedGraph GraphLoader::Resolve() const {
 
 std::optional<ResolvedGraph> LoadGraph(const std::string& path,
                                        const std::vector<std::string>& assignments,
+                                       const std::map<std::string, std::string>& swapped,
                                        std::vector<Fault>* faults) {
-  GraphLoader loader(path, faults);
+  GraphLoader loader(path, swapped, faults);
   const bool is_good = loader.ReadFile() && loader.FindPrograms() && loader.ReadConfigs() &&
                        loader.Assign(assignments) && loader.CheckChannels();
   if (!is_good) return std::nullopt;

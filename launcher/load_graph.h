@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +13,12 @@ namespace declutter::launcher {
 // Reads and checks a graph file: syntax, names, programs, parameters of programs that are not
 // linked here, channels. Each program is asked with --describe.
 //
-// assignments: `module.field=value`, on top of what the file says. Nothing when there is a fault;
-// all that were found are added to faults.
+// swapped: modules that get another program, an absolute path; parameters of another type than that
+// program's are left out. assignments: `module.field=value`, on top of what the file says. Nothing
+// when there is a fault; all that were found are added to faults.
 std::optional<ResolvedGraph> LoadGraph(const std::string& path,
                                        const std::vector<std::string>& assignments,
+                                       const std::map<std::string, std::string>& swapped,
                                        std::vector<Fault>* faults);
 
 }  // namespace declutter::launcher

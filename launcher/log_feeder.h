@@ -30,6 +30,7 @@ class LogFeeder : public Process {
   void OnMessage(const Message& message) override;
   void OnTurn(double now_s) override;
   bool is_ready() const override { return is_started_; }
+  bool obeys_users() const override { return false; }
   std::optional<Ending> Reap() override;
 
  private:

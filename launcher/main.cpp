@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "launcher/ask.h"
 #include "launcher/command_line.h"
 #include "launcher/find_program.h"
 #include "launcher/load_graph.h"
@@ -18,12 +19,6 @@ namespace {
 
 constexpr int kFailure = 1;
 constexpr int kBadConfig = 2;
-
-void Print(const std::vector<Fault>& faults) {
-  for (const Fault& fault : faults) {
-    std::cerr << (fault.where.empty() ? "" : fault.where + ": ") << fault.what << "\n";
-  }
-}
 
 int Run(const CommandLine& line, ResolvedGraph graph) {
   const char* environment_url = std::getenv("LCM_DEFAULT_URL");
@@ -39,23 +34,42 @@ int Run(const CommandLine& line, ResolvedGraph graph) {
   return is_complete ? RunGraph(graph, options) : kBadConfig;
 }
 
-int Act(const std::vector<std::string>& arguments) {
-  const CommandLine line = ParseCommandLine(arguments);
-  if (line.verb == CommandLine::Verb::kHelp) {
-    std::cout << HelpText();
-    return 0;
-  }
+int CheckOrRun(const CommandLine& line) {
   std::error_code ignored;
   if (std::filesystem::exists(std::filesystem::symlink_status(line.record, ignored))) {
     throw runtime::ConfigError("--record " + line.record + ": exists already");
   }
   std::vector<Fault> faults;
-  const auto graph = LoadGraph(line.graph, line.assignments, &faults);
+  const auto graph = LoadGraph(line.graph, line.assignments, {}, &faults);
   Print(faults);
   if (!graph) return kBadConfig;
   if (line.verb == CommandLine::Verb::kRun) return Run(line, *graph);
   std::cout << graph->text;
   return std::cout.flush() ? 0 : kFailure;
+}
+
+int Act(const std::vector<std::string>& arguments) {
+  using Verb = CommandLine::Verb;
+  const CommandLine line = ParseCommandLine(arguments);
+  switch (line.verb) {
+    case Verb::kHelp:
+      std::cout << HelpText();
+      return 0;
+    case Verb::kCheck:
+    case Verb::kRun:
+      return CheckOrRun(line);
+    case Verb::kStatus:
+      return ShowStatus(line);
+    case Verb::kLogs:
+      return ShowLog(line);
+    case Verb::kSwap:
+      return Swap(line);
+    case Verb::kStart:
+    case Verb::kStop:
+    case Verb::kRestart:
+      break;
+  }
+  return Order(line);
 }
 
 }  // namespace

@@ -2,12 +2,15 @@
 
 #include <signal.h>
 
+#include <limits>
 #include <utility>
 
 namespace declutter::launcher {
 namespace {
 
 constexpr int8_t kRunning = 1;  // module_status_t::state
+constexpr int8_t kFinished = 2;
+constexpr double kLastStatusLimit_s = 0.3;
 
 }  // namespace
 
@@ -15,17 +18,57 @@ ModuleProcess::ModuleProcess(std::string name, std::vector<std::string> command,
                              std::string log_path)
     : Program(std::move(command), std::move(log_path)), name_(std::move(name)) {}
 
+void ModuleProcess::Start() {
+  Forget();
+  Program::Start();
+  started_pid_ = pid();
+}
+
+void ModuleProcess::StartHeld() {
+  Forget();
+  Launch({"--hold"}, true);
+  started_pid_ = pid();
+}
+
+void ModuleProcess::Forget() {
+  started_pid_ = -1;
+  status_.reset();
+  last_utime_.reset();
+  ending_.reset();
+}
+
+void ModuleProcess::Release(std::optional<int64_t> last_utime) {
+  Send(std::to_string(last_utime.value_or(std::numeric_limits<int64_t>::max())) + "\n");
+}
+
 void ModuleProcess::Terminate() {
   is_ending_ = true;
   Signal(SIGTERM);
 }
 
+void ModuleProcess::OnTurn(double now_s) {
+  now_s_ = now_s;
+  Program::OnTurn(now_s);
+}
+
 void ModuleProcess::OnMessage(const Message& message) {
   auto status = DecodeStatus(message);
   // The number tells it from another of the same name, in a graph run over the same url.
-  if (!status || status->module != name_ || status->pid != pid()) return;
+  if (!status || status->module != name_ || status->pid != started_pid_) return;
   is_ready_ = is_ready_ || status->state == kRunning;
+  if (status->state >= kFinished) last_utime_ = status->last_utime;
   status_ = std::move(status);
+}
+
+std::optional<Ending> ModuleProcess::Reap() {
+  if (auto ending = Program::Reap()) {
+    ending_ = std::move(ending);
+    ended_s_ = now_s_;
+  }
+  if (!ending_) return std::nullopt;
+  const bool will_tell = is_ending_ && is_ready_ && ending_->signal == 0 && !last_utime_;
+  if (will_tell && now_s_ - ended_s_ < kLastStatusLimit_s) return std::nullopt;
+  return std::exchange(ending_, std::nullopt);
 }
 
 std::optional<module_status_t> ModuleProcess::TakeStatus() {

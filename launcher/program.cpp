@@ -9,10 +9,19 @@ namespace declutter::launcher {
 Program::Program(std::vector<std::string> command, std::string log_path)
     : command_(std::move(command)), log_path_(std::move(log_path)) {}
 
-void Program::Start() {
+void Program::Start() { Launch({}, false); }
+
+void Program::Launch(const std::vector<std::string>& arguments, bool keeps_stdin) {
+  std::vector<std::string> command = command_;
+  command.insert(command.end(), arguments.begin(), arguments.end());
   is_ready_ = is_ending_ = has_stderr_ = false;
-  child_ = std::make_unique<ChildProcess>(command_, log_path_);
+  child_ = std::make_unique<ChildProcess>(command, log_path_);
   has_stderr_ = true;
+  if (!keeps_stdin) child_->Send("");
+}
+
+void Program::Send(const std::string& text) {
+  if (child_) child_->Send(text);
 }
 
 void Program::Kill() { Signal(SIGKILL); }

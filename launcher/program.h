@@ -20,12 +20,16 @@ class Program : public Process {
   bool is_ready() const override { return is_ready_; }
   std::optional<Ending> Reap() override;
   int fd() const override;
+  pid_t pid() const override { return child_ ? child_->pid() : -1; }
 
  protected:
   // How its end is to be taken.
   virtual Ending Judge(const Ending& ending) const = 0;
 
-  pid_t pid() const { return child_ ? child_->pid() : -1; }
+  // Starts with further arguments; keeps_stdin: Send will be called.
+  void Launch(const std::vector<std::string>& arguments, bool keeps_stdin);
+
+  void Send(const std::string& text);
   void Signal(int signal);
 
   bool is_ready_ = false;

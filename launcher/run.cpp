@@ -21,11 +21,10 @@ namespace {
 constexpr const char* kLogger = "lcm-logger";
 constexpr const char* kFeeder = "log-feeder";
 
-std::vector<std::string> ModuleCommand(const ResolvedModule& resolved, bool lossless,
-                                       const RunFolder& folder) {
-  const Module& module = resolved.module;
+std::vector<std::string> ModuleCommand(const Module& module, const std::string& config_path,
+                                       bool lossless) {
   std::vector<std::string> command = {module.program(), "--name", module.name(), "--config",
-                                      folder.ConfigPath(module.name())};
+                                      config_path};
   for (const Remap& remap : module.remap()) {
     command.insert(command.end(), {"--remap", remap.from() + "=" + remap.to()});
   }
@@ -69,6 +68,35 @@ std::unique_ptr<Process> MakeRecorder(const RunOptions& options, const RunFolder
   return std::make_unique<Recorder>(command, options.record, folder.LogPath(kLogger), wire);
 }
 
+class ModuleMaker : public SuccessorMaker {
+ public:
+  ModuleMaker(const ResolvedGraph& graph, const RunFolder& folder)
+      : graph_(graph), folder_(folder) {}
+
+  std::unique_ptr<ModuleProcess> Make(const ControlRequest& request) override {
+    for (const ResolvedModule& resolved : graph_.modules) {
+      if (resolved.module.name() != request.module()) continue;
+      Module module = resolved.module;
+      module.set_program(request.program());
+      graph_texts_[module.name()] = request.graph_text();
+      const std::string config = folder_.WriteConfig(
+          module.name() + ".swap" + std::to_string(++num_made_), request.config_text());
+      return std::make_unique<ModuleProcess>(module.name(),
+                                             ModuleCommand(module, config, graph_.lossless),
+                                             folder_.LogPath(module.name()));
+    }
+    return nullptr;
+  }
+
+  void Adopt(const std::string& module) override { folder_.WriteGraph(graph_texts_.at(module)); }
+
+ private:
+  const ResolvedGraph& graph_;
+  const RunFolder& folder_;
+  std::map<std::string, std::string> graph_texts_;  // by module
+  int num_made_ = 0;
+};
+
 }  // namespace
 
 std::vector<Node> PlanNodes(const ResolvedGraph& graph, const RunOptions& options) {
@@ -105,16 +133,19 @@ int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
   Wire wire(options.url);
   wire.Subscribe(HeardChannels(options));
 
-  std::map<std::string, std::unique_ptr<Process>> processes;
+  ProcessMap processes;
   for (const ResolvedModule& resolved : graph.modules) {
     const std::string& name = resolved.module.name();
     processes[name] = std::make_unique<ModuleProcess>(
-        name, ModuleCommand(resolved, graph.lossless, folder), folder.LogPath(name));
+        name, ModuleCommand(resolved.module, folder.ConfigPath(name), graph.lossless),
+        folder.LogPath(name));
   }
   if (!options.record.empty()) processes[kLogger] = MakeRecorder(options, folder, &wire);
   if (options.replay) processes[kFeeder] = std::make_unique<LogFeeder>(*options.replay, &wire);
   Supervisor supervisor(PlanNodes(graph, options), graph.lossless);
-  return Session(std::move(supervisor), std::move(processes), &wire).Run();
+  ControlSocket control(folder.path());
+  ModuleMaker maker(graph, folder);
+  return Session(std::move(supervisor), std::move(processes), &wire, &control, &maker).Run();
 }
 
 }  // namespace declutter::launcher

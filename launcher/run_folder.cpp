@@ -44,11 +44,20 @@ RunFolder::RunFolder(const std::string& logs, const ResolvedGraph& graph) {
     throw std::runtime_error(path_ + ": " + error.message() +
                              "; --log_dir names another folder for logs");
   }
-  WriteFile(path_ + "/graph.textproto", graph.text);
+  WriteGraph(graph.text);
   for (const ResolvedModule& module : graph.modules) {
-    WriteFile(ConfigPath(module.module.name()), module.config_text);
+    WriteConfig(module.module.name(), module.config_text);
   }
   PointLatestTo(logs, name);
+}
+
+void RunFolder::WriteGraph(const std::string& text) const {
+  WriteFile(path_ + "/graph.textproto", text);
+}
+
+std::string RunFolder::WriteConfig(const std::string& process, const std::string& text) const {
+  WriteFile(ConfigPath(process), text);
+  return ConfigPath(process);
 }
 
 std::string RunFolder::ConfigPath(const std::string& module) const {

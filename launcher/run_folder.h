@@ -14,6 +14,14 @@ class RunFolder {
   // Throws std::runtime_error when it cannot be written.
   RunFolder(const std::string& logs, const ResolvedGraph& graph);
 
+  const std::string& path() const { return path_; }
+
+  // The graph as it has become.
+  void WriteGraph(const std::string& text) const;
+
+  // Returns the path of a file with the parameters of a process.
+  std::string WriteConfig(const std::string& process, const std::string& text) const;
+
   std::string ConfigPath(const std::string& module) const;
   std::string LogPath(const std::string& process) const;
 

@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "launcher/process.h"
+#include "launcher/control_socket.h"
+#include "launcher/module_process.h"
+#include "launcher/orders.h"
 #include "launcher/supervisor.h"
+#include "launcher/vitals.h"
 #include "launcher/wire.h"
 
 namespace declutter::launcher {
@@ -14,13 +17,27 @@ namespace declutter::launcher {
 // Keeps the signals that end a run until a Session reads them. Call before any thread is started.
 void HoldSignals();
 
-// Carries out what a Supervisor decides: the loop that hears signals, messages, endings and what
-// processes print. One at a time in a program, as signals come once.
+using ProcessMap = std::map<std::string, std::unique_ptr<Process>>;
+
+// Makes what users swap in.
+class SuccessorMaker {
+ public:
+  virtual ~SuccessorMaker() = default;
+
+  // For a request to swap; null when there is no such module. Throws std::runtime_error.
+  virtual std::unique_ptr<ModuleProcess> Make(const ControlRequest& request) = 0;
+
+  // The successor made last has taken over.
+  virtual void Adopt(const std::string& module) = 0;
+};
+
+// Carries out what a Supervisor decides: the loop that hears signals, messages, users, endings and
+// what processes print. One at a time in a program, as signals come once.
 class Session {
  public:
-  // wire is kept.
-  Session(Supervisor supervisor, std::map<std::string, std::unique_ptr<Process>> processes,
-          Wire* wire);
+  // wire, control and maker are kept.
+  Session(Supervisor supervisor, ProcessMap processes, Wire* wire, ControlSocket* control,
+          SuccessorMaker* maker);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -31,15 +48,28 @@ class Session {
  private:
   void Wait();
   void ReadSignals();
+  void ListenToProcesses(const std::vector<Message>& messages);
+  void ListenToSuccessors(const std::vector<Message>& messages);
+  void ListenToUsers();
+  void Take(ControlSocket::Id id, const ControlRequest& request);
+  ControlReply Report() const;
   void Decide(const Event& event);
   void Do(const Start& action);
   void Do(const Terminate& action) { processes_.at(action.name)->Terminate(); }
   void Do(const Kill& action) { processes_.at(action.name)->Kill(); }
   void Do(const Say& action);
+  void Do(const StartSuccessor& action);
+  void Do(const EndSuccessor& action) { successors_.erase(action.name); }
+  void Do(const Promote& action);
 
   Supervisor supervisor_;
-  std::map<std::string, std::unique_ptr<Process>> processes_;
+  ProcessMap processes_;
+  std::map<std::string, std::unique_ptr<ModuleProcess>> successors_;
+  std::map<std::string, Vitals> vitals_;
+  Orders orders_;
   Wire* wire_;
+  ControlSocket* control_;
+  SuccessorMaker* maker_;
   int signal_fd_;
 };
 

@@ -48,6 +48,7 @@ std::vector<Action> Supervisor::Handle(const Event& event, double now_s) {
   std::visit([&](const auto& e) { On(e, now_s); }, event);
   if (!is_stopping_) CheckStartLimits(now_s);
   if (!is_stopping_) CheckHangs(now_s);
+  if (!is_stopping_) CheckSwaps(now_s);
   if (!is_stopping_) RestartWhatIsDue(now_s);
   if (!is_stopping_) StartWhatCan(now_s);
   if (!is_stopping_ && AllSourcesEnded()) is_stopping_ = true;
@@ -83,8 +84,12 @@ void Supervisor::On(const Exited& event, double now_s) {
   const double ran_s = was == State::kRunning ? now_s - process.since_s : 0.0;
   Enter(State::kEnded, &process, now_s);
   if (is_stopping_) return JudgeLastEnd(event, was);
+  if (process.then != Then::kRule && was != State::kKilled && event.code != 0) {
+    Tell(event.name + " ended with " + event.how);
+  }
+  if (process.then == Then::kPromote) return PromoteNow(&process, now_s);
+  CancelSwap(&process);
   if (process.then == Then::kRule) return ApplyRule(event, was, ran_s, now_s);
-  if (was != State::kKilled && event.code != 0) Tell(event.name + " ended with " + event.how);
   if (process.then == Then::kStart) return StartNow(&process, now_s);
   Enter(State::kStopped, &process, now_s);
 }
@@ -144,6 +149,8 @@ void Supervisor::On(const Asked& event, double now_s) {
   const bool is_up = process.state == State::kStarting || process.state == State::kRunning;
   const Then then = event.verb == Asked::Verb::kStop ? Then::kStay : Then::kStart;
   process.backoff.Reset();
+  if (event.verb == Asked::Verb::kSwap) return BeginSwap(&process, now_s);
+  CancelSwap(&process);
   if (is_up && event.verb == Asked::Verb::kStart) return;
   if (is_up) return TerminateNow(&process, then, now_s);
   if (Lives(process.state)) {
@@ -153,6 +160,41 @@ void Supervisor::On(const Asked& event, double now_s) {
   } else {
     Enter(State::kStopped, &process, now_s);
   }
+}
+
+void Supervisor::BeginSwap(Process* process, double now_s) {
+  if (process->state != State::kRunning || process->succession.is_under_way()) return;
+  process->succession.Begin(now_s);
+  actions_.push_back(StartSuccessor{process->node.name});
+}
+
+void Supervisor::On(const SuccessorBeat& event, double now_s) {
+  processes_.at(event.name).succession.Beat(event.has_input, now_s);
+}
+
+void Supervisor::On(const SuccessorExited& event, double) {
+  Process& process = processes_.at(event.name);
+  if (!process.succession.is_under_way()) return;
+  process.succession.Cancel();
+  const bool is_too_late = process.then == Then::kPromote && Lives(process.state);
+  if (is_too_late) process.then = Then::kStart;
+  Tell("the successor of " + event.name + " ended with " + event.how + "; " + event.name +
+       (is_too_late ? " starts again" : " goes on"));
+}
+
+void Supervisor::PromoteNow(Process* process, double now_s) {
+  process->succession.Cancel();
+  process->then = Then::kRule;
+  ++process->num_swaps;
+  Enter(State::kRunning, process, now_s);
+  process->watch.Start(now_s);
+  actions_.push_back(Promote{process->node.name});
+}
+
+void Supervisor::CancelSwap(Process* process) {
+  if (!process->succession.is_under_way()) return;
+  process->succession.Cancel();
+  actions_.push_back(EndSuccessor{process->node.name});
 }
 
 void Supervisor::StartNow(Process* process, double now_s) {
@@ -210,6 +252,20 @@ void Supervisor::CheckHangs(double now_s) {
   });
 }
 
+void Supervisor::CheckSwaps(double now_s) {
+  ForEachInOrder([&](Process& process) {
+    const double limit_s = process.node.start_limit_s;
+    if (process.succession.is_late(limit_s, now_s)) {
+      Tell("the successor of " + process.node.name + " is not ready " + Seconds(limit_s) +
+           " after its start; " + process.node.name + " goes on");
+      CancelSwap(&process);
+    }
+    if (process.state != State::kRunning || !process.succession.is_due(now_s)) return;
+    process.succession.TakeOver(now_s);
+    TerminateNow(&process, Then::kPromote, now_s);
+  });
+}
+
 void Supervisor::GiveUp(Process* process, const std::string& why, double now_s) {
   const Node& node = process->node;
   if (node.is_required && node.restart.when == RestartRule::When::kNever) {
@@ -223,6 +279,7 @@ void Supervisor::GiveUp(Process* process, const std::string& why, double now_s) 
 void Supervisor::StopWhatCan(double now_s) {
   // What does not run counts as ended; a node may then become free to stop in the same pass.
   for (auto& [name, process] : processes_) {
+    CancelSwap(&process);
     if (!Lives(process.state)) process.state = State::kEnded;
   }
   ForEachInOrder([&](Process& process) {

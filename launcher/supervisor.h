@@ -7,6 +7,7 @@
 
 #include "launcher/hang_watch.h"
 #include "launcher/restart_policy.h"
+#include "launcher/succession.h"
 
 namespace declutter::launcher {
 
@@ -41,12 +42,21 @@ struct Interrupted {
   int signal = 0;
 };
 struct Asked {  // by a user, of one process
-  enum class Verb { kStart, kStop, kRestart };
+  enum class Verb { kStart, kStop, kRestart, kSwap };
   Verb verb;
   std::string name;
 };
+struct SuccessorBeat {
+  std::string name;
+  bool has_input = false;  // a whole frame waits in it
+};
+struct SuccessorExited {
+  std::string name;
+  std::string how = {};
+};
 struct TimePassed {};
-using Event = std::variant<Ready, Beat, Exited, Interrupted, Asked, TimePassed>;
+using Event = std::variant<Ready, Beat, Exited, Interrupted, Asked, SuccessorBeat, SuccessorExited,
+                           TimePassed>;
 
 // What to do about it.
 struct Start {
@@ -61,7 +71,16 @@ struct Kill {
 struct Say {
   std::string text;
 };
-using Action = std::variant<Start, Terminate, Kill, Say>;
+struct StartSuccessor {  // to hear everything and do nothing
+  std::string name;
+};
+struct EndSuccessor {  // at once
+  std::string name;
+};
+struct Promote {  // the successor to the process that it follows, which has ended
+  std::string name;
+};
+using Action = std::variant<Start, Terminate, Kill, Say, StartSuccessor, EndSuccessor, Promote>;
 
 // Of a process. Pausing: it starts again in a moment. Stopped: a user asked for it. Ended: for
 // good.
@@ -83,7 +102,8 @@ enum class State {
 // ends, a node is terminated when everything upstream of it has ended, so each drains what is on
 // its way. A process that fails starts again as its rule says, except after exit code 2, which says
 // that it never can. The run ends when all sources have ended, when a required process has failed
-// for good, or on a signal.
+// for good, or on a signal. A swap ends a process when its successor has heard a whole frame, and
+// promotes that when it has ended; what goes wrong before leaves the old one where it is.
 class Supervisor {
  public:
   // is_finite: the graph is run over recordings, so a signal cuts it short. nodes must have unique
@@ -102,11 +122,16 @@ class Supervisor {
 
   bool is_stopping() const { return is_stopping_; }
   State state(const std::string& name) const { return processes_.at(name).state; }
+  double since_s(const std::string& name) const { return processes_.at(name).since_s; }
   int num_restarts(const std::string& name) const { return processes_.at(name).num_restarts; }
+  int num_swaps(const std::string& name) const { return processes_.at(name).num_swaps; }
+  bool is_swapping(const std::string& name) const {
+    return processes_.at(name).succession.is_under_way();
+  }
 
  private:
   // What follows the end of a process that was asked or forced to end before the run does.
-  enum class Then { kRule, kStay, kStart };
+  enum class Then { kRule, kStay, kStart, kPromote };
   struct Process {
     explicit Process(Node n)
         : node(std::move(n)), backoff(node.restart), watch(node.hang_limit_s) {}
@@ -119,6 +144,8 @@ class Supervisor {
     Then then = Then::kRule;
     bool was_started = false;
     int num_restarts = 0;
+    int num_swaps = 0;
+    Succession succession;
     Backoff backoff;
     HangWatch watch;
   };
@@ -128,6 +155,8 @@ class Supervisor {
   void On(const Exited& event, double now_s);
   void On(const Interrupted& event, double now_s);
   void On(const Asked& event, double now_s);
+  void On(const SuccessorBeat& event, double now_s);
+  void On(const SuccessorExited& event, double now_s);
   void On(const TimePassed&, double) {}
 
   void JudgeLastEnd(const Exited& event, State was);
@@ -135,6 +164,9 @@ class Supervisor {
   void StartNow(Process* process, double now_s);
   void TerminateNow(Process* process, Then then, double now_s);
   void KillNow(Process* process, double now_s);
+  void BeginSwap(Process* process, double now_s);
+  void PromoteNow(Process* process, double now_s);
+  void CancelSwap(Process* process);
 
   // Ends a process that gets nowhere; its rule says what then.
   void GiveUp(Process* process, const std::string& why, double now_s);
@@ -143,6 +175,7 @@ class Supervisor {
   void RestartWhatIsDue(double now_s);
   void CheckStartLimits(double now_s);
   void CheckHangs(double now_s);
+  void CheckSwaps(double now_s);
   void StopWhatCan(double now_s);
   void KillWhatLingers(double now_s);
 

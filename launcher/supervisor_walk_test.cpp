@@ -36,6 +36,11 @@ class World {
       }
       if (supervisor_.state(node.name) == State::kStarting) events.push_back(Ready{node.name});
       events.push_back(Asked{Asked::Verb::kStop, node.name});
+      events.push_back(Asked{Asked::Verb::kSwap, node.name});
+      if (successors_.count(node.name) != 0) {
+        events.push_back(SuccessorBeat{node.name, true});
+        events.push_back(SuccessorExited{node.name, "exit code 1"});
+      }
       events.push_back(Asked{Asked::Verb::kRestart, node.name});
       if (killed_.count(node.name) == 0) {
         events.push_back(Exited{node.name, 0, false, "exit code 0"});
@@ -55,10 +60,12 @@ class World {
       killed_.erase(exited->name);
       has_ended_with_two_ = has_ended_with_two_ || exited->code == 2;
     }
+    if (const auto* exited = std::get_if<SuccessorExited>(&event)) successors_.erase(exited->name);
     const bool was_stopping = supervisor_.is_stopping();
     for (const Action& action : supervisor_.Handle(event, now_s_)) Check(action, was_stopping);
     for (const Node& node : nodes_) CheckState(node.name);
     ASSERT_EQ(supervisor_.finished(), supervisor_.is_stopping() && alive_.empty());
+    ASSERT_TRUE(!supervisor_.is_stopping() || successors_.empty());
     ASSERT_FALSE(was_stopping && !supervisor_.is_stopping());
   }
 
@@ -90,6 +97,14 @@ class World {
     } else if (const auto* kill = std::get_if<Kill>(&action)) {
       ASSERT_EQ(alive_.count(kill->name), 1u);
       killed_.insert(kill->name);
+    } else if (const auto* next = std::get_if<StartSuccessor>(&action)) {
+      ASSERT_TRUE(successors_.insert(next->name).second);
+      ASSERT_FALSE(was_stopping);
+    } else if (const auto* dropped = std::get_if<EndSuccessor>(&action)) {
+      ASSERT_EQ(successors_.erase(dropped->name), 1u);
+    } else if (const auto* promoted = std::get_if<Promote>(&action)) {
+      ASSERT_EQ(successors_.erase(promoted->name), 1u);
+      ASSERT_TRUE(alive_.insert(promoted->name).second) << "two of " << promoted->name;
     }
   }
 
@@ -107,12 +122,14 @@ class World {
     const bool lives = state == State::kStarting || state == State::kRunning ||
                        state == State::kTerminating || state == State::kKilled;
     ASSERT_EQ(lives, alive_.count(name) == 1) << name;
+    ASSERT_EQ(supervisor_.is_swapping(name), successors_.count(name) == 1) << name;
   }
 
   Supervisor supervisor_;
   std::vector<Node> nodes_;
   std::set<std::string> alive_;
   std::set<std::string> killed_;
+  std::set<std::string> successors_;
   double now_s_ = 0.0;
   int num_signals_ = 0;
   bool has_ended_with_two_ = false;

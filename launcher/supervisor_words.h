@@ -12,6 +12,9 @@ inline std::string Words(const Action& action) {
   if (const auto* start = std::get_if<Start>(&action)) return "start " + start->name;
   if (const auto* terminate = std::get_if<Terminate>(&action)) return "stop " + terminate->name;
   if (const auto* kill = std::get_if<Kill>(&action)) return "kill " + kill->name;
+  if (const auto* next = std::get_if<StartSuccessor>(&action)) return "prepare " + next->name;
+  if (const auto* next = std::get_if<EndSuccessor>(&action)) return "drop " + next->name;
+  if (const auto* next = std::get_if<Promote>(&action)) return "promote " + next->name;
   return "say " + std::get<Say>(action).text;
 }
 

@@ -1,6 +1,7 @@
 #include "launcher/wiring.h"
 
 #include <algorithm>
+#include <iostream>
 #include <map>
 #include <optional>
 
@@ -88,6 +89,12 @@ void CheckCycles(const std::vector<WiredModule>& modules, std::vector<Fault>* fa
 }
 
 }  // namespace
+
+void Print(const std::vector<Fault>& faults) {
+  for (const Fault& fault : faults) {
+    std::cerr << (fault.where.empty() ? "" : fault.where + ": ") << fault.what << "\n";
+  }
+}
 
 std::vector<Fault> CheckWiring(const std::vector<WiredModule>& modules) {
   std::vector<Fault> faults;

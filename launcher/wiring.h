@@ -11,6 +11,9 @@ struct Fault {
   std::string what;
 };
 
+// To stderr, a line each.
+void Print(const std::vector<Fault>& faults);
+
 // A channel that a module publishes or consumes, and the type of its messages.
 struct Port {
   std::string channel;

@@ -58,6 +58,8 @@ const std::vector<Option>& Options() {
        [](Value value, CommandLine* line) { AddRemap(value, line); }},
       {"--lossless", "", "skip no frame, for recordings",
        [](Value, CommandLine* line) { line->lossless = true; }},
+      {"--hold", "", "keep what arrives until a time [us] on stdin, and handle what is later",
+       [](Value, CommandLine* line) { line->hold = true; }},
       {"--replay", "LOG", "read the inputs from a log, not from the network",
        [](Value value, CommandLine* line) { SetOnce(value, &line->replay); }},
       {"--record", "LOG", "write the results of --replay to a new log",

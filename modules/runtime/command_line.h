@@ -17,6 +17,7 @@ struct CommandLine {
   std::vector<std::string> assignments;      // of --set, in order
   std::map<std::string, std::string> remap;  // channel of the module -> channel on the wire
   bool lossless = false;
+  bool hold = false;
   std::string replay;  // log to read instead of the network; empty: none
   std::string record;  // log to write the replay's results to; empty: none
 };

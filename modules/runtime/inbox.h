@@ -35,6 +35,16 @@ class Inbox {
   // Waits for a delivery until deadline or until Close().
   std::optional<Delivery> TakeUntil(std::chrono::steady_clock::time_point deadline);
 
+  // From now on every frame waits, in a live run at most kMaxHeld, until Release().
+  void Hold();
+
+  // Drops what a predecessor has handled, up to last_utime [us]. The worker gets the rest, also at
+  // the sensor's rate.
+  void Release(std::int64_t last_utime);
+
+  // Waits for Release() or Close().
+  void AwaitRelease();
+
   // Wakes the worker for the last time: a lossless inbox is still emptied, else what waits is
   // dropped.
   void Close();
@@ -42,14 +52,19 @@ class Inbox {
   bool closed() const;
   std::size_t size() const;
 
+  static constexpr std::size_t kMaxHeld = 64;
+
  private:
   std::optional<Delivery> TakeLocked();
+  bool Keep(Delivery delivery);
 
   const bool lossless_;
   const std::size_t capacity_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Delivery> waiting_;
+  std::size_t num_held_ = 0;  // of those waiting, from the front: not to be replaced
+  bool holds_ = false;
   bool closed_ = false;
 };
 

@@ -61,6 +61,55 @@ TEST(Inbox, DropsWhatWaitsAtClosingAtTheSensorsRate) {
   EXPECT_FALSE(inbox.TakeUntil(steady_clock::now()));
 }
 
+TEST(Inbox, GivesTheWorkerWhatItsPredecessorHasNotHandled) {
+  for (const bool lossless : {false, true}) {
+    Inbox inbox(lossless, 8);
+    inbox.Hold();
+    for (int i = 1; i <= 5; ++i) EXPECT_TRUE(inbox.Put({0, i, {}}));
+    EXPECT_TRUE(inbox.Put({0, 5, {}}));
+    EXPECT_EQ(inbox.size(), 5u);
+    inbox.Release(2);
+    EXPECT_TRUE(inbox.Put({0, 6, {}}));
+    for (int i = 3; i <= 6; ++i) EXPECT_EQ(inbox.Take()->utime, i);
+    EXPECT_FALSE(inbox.Take());
+  }
+}
+
+TEST(Inbox, ReplacesOnlyWhatCameAfterTheReleaseAtTheSensorsRate) {
+  Inbox inbox(false, 8);
+  inbox.Hold();
+  for (int i = 1; i <= 2; ++i) inbox.Put({0, i, {}});
+  inbox.Release(0);
+  EXPECT_TRUE(inbox.Put({0, 3, {}}));
+  EXPECT_FALSE(inbox.Put({0, 4, {}}));
+  for (const int utime : {1, 2, 4}) EXPECT_EQ(inbox.Take()->utime, utime);
+}
+
+TEST(Inbox, HoldsNoMoreThanItsBoundAndKeepsTheNewest) {
+  Inbox inbox(false, 8);
+  inbox.Hold();
+  constexpr int kNum = static_cast<int>(Inbox::kMaxHeld);
+  for (int i = 1; i <= kNum; ++i) EXPECT_TRUE(inbox.Put({0, i, {}}));
+  EXPECT_FALSE(inbox.Put({0, kNum + 1, {}}));
+  inbox.Release(0);
+  EXPECT_EQ(inbox.Take()->utime, 2);
+}
+
+TEST(Inbox, WakesWhoAwaitsTheReleaseAlsoToEnd) {
+  Inbox released(false, 8), closed(false, 8);
+  released.Hold();
+  closed.Hold();
+  std::thread other([&] {
+    released.Release(0);
+    closed.Close();
+  });
+  released.AwaitRelease();
+  closed.AwaitRelease();
+  other.join();
+  EXPECT_FALSE(released.closed());
+  EXPECT_TRUE(closed.closed());
+}
+
 TEST(Inbox, WakesTheWorker) {
   Inbox inbox(false, 8);
   std::thread sender([&inbox] { inbox.Put({0, 5, {}}); });

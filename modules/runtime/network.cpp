@@ -15,6 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kStatusPeriod(1000);
+constexpr int kSettleMs = 50;
 // LCM's queue drops the newest message when it is full; ours (Inbox) decides better what to drop.
 constexpr int kQueueCapacity = 1024;
 
@@ -77,16 +78,31 @@ bool Network::Receive() {
   return false;
 }
 
-void Network::Drain() {
-  // Packets pass through a thread of LCM's own: an empty queue is final only after a moment.
-  constexpr int kSettleMs = 50;
-  const Clock::time_point deadline = Clock::now() + std::chrono::seconds(1);
+// Packets pass through a thread of LCM's own: an empty queue is final only after a moment.
+void Network::Drain(std::chrono::milliseconds limit) {
+  const Clock::time_point deadline = Clock::now() + limit;
   while (Clock::now() < deadline && lcm_handle_timeout(lcm_, kSettleMs) > 0) {
   }
 }
 
-void Network::Serve(int signal_fd, int end_fd) {
-  pollfd fds[] = {{end_fd, POLLIN, 0}, {signal_fd, POLLIN, 0}, {lcm_get_fileno(lcm_), POLLIN, 0}};
+void Network::ReadRelease(pollfd* release) {
+  char buffer[64];
+  const ssize_t num_read = read(release->fd, buffer, sizeof(buffer));
+  release_.append(buffer, num_read > 0 ? static_cast<std::size_t>(num_read) : 0);
+  if (num_read > 0 && release_.find('\n') == std::string::npos) return;
+  release->fd = -1;
+  // Who holds us is gone without a word.
+  if (num_read <= 0) return shell_->Stop();
+  // What arrived before belongs to what is held.
+  Drain(std::chrono::milliseconds(kSettleMs));
+  shell_->Release(std::strtoll(release_.c_str(), nullptr, 10));
+}
+
+void Network::Serve(int signal_fd, int end_fd, int release_fd) {
+  pollfd fds[] = {{end_fd, POLLIN, 0},
+                  {signal_fd, POLLIN, 0},
+                  {lcm_get_fileno(lcm_), POLLIN, 0},
+                  {release_fd, POLLIN, 0}};
   Clock::time_point next_status = Clock::now();
   bool stopping = false;
   while (true) {
@@ -94,13 +110,14 @@ void Network::Serve(int signal_fd, int end_fd) {
       shell_->PublishStatus(Shell::State::kRunning);
       next_status += kStatusPeriod;
     }
-    const nfds_t num_fds = stopping ? 1 : 3;
+    const nfds_t num_fds = stopping ? 1 : 4;
     if (poll(fds, num_fds, MillisecondsUntil(next_status)) <= 0) continue;
     if (fds[0].revents != 0) return;
     if (stopping) continue;
+    if (fds[3].revents != 0) ReadRelease(&fds[3]);
     stopping = (fds[2].revents != 0 && !Receive()) || fds[1].revents != 0;
     if (!stopping) continue;
-    Drain();
+    if (shell_->lossless()) Drain(std::chrono::seconds(1));
     shell_->Stop();
   }
 }

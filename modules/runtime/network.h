@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -7,6 +8,7 @@
 #include "modules/runtime/shell.h"
 
 struct _lcm_t;
+struct pollfd;
 
 namespace declutter::runtime {
 
@@ -27,16 +29,19 @@ class Network {
   void Publish(const std::string& channel, const Bytes& message);
 
   // The life of the I/O thread: hands over what arrives and publishes the status once a second
-  // until a signal for the end arrives on signal_fd; then hands over what is still in the socket
-  // and stops the shell. Returns when end_fd becomes readable.
-  void Serve(int signal_fd, int end_fd);
+  // until a signal for the end arrives on signal_fd; then stops the shell, in a lossless run after
+  // handing over what is still in the socket. Returns when end_fd becomes readable. A time that
+  // comes on release_fd releases the shell; -1: it holds nothing.
+  void Serve(int signal_fd, int end_fd, int release_fd);
 
  private:
   bool Receive();
-  void Drain();
+  void ReadRelease(pollfd* release);
+  void Drain(std::chrono::milliseconds limit);
 
   Shell* const shell_;
   _lcm_t* lcm_ = nullptr;
+  std::string release_;  // what has been read of the time
 };
 
 }  // namespace declutter::runtime

@@ -80,7 +80,7 @@ void CheckRemap(const CommandLine& line, const Shell& shell) {
   }
 }
 
-int RunLive(Shell* shell, std::shared_ptr<void> module) {
+int RunLive(const CommandLine& line, Shell* shell, std::shared_ptr<void> module) {
   const int signal_fd = TakeSignals();
   const int end_fd = eventfd(0, EFD_CLOEXEC);
   if (signal_fd < 0 || end_fd < 0) throw std::runtime_error("no descriptors left");
@@ -91,9 +91,18 @@ int RunLive(Shell* shell, std::shared_ptr<void> module) {
   network.Subscribe();
   int code = kClean;
   std::thread io;
+  const auto serve = [&] {
+    const int release_fd = line.hold ? STDIN_FILENO : -1;
+    io = std::thread([=, &network] { network.Serve(signal_fd, end_fd, release_fd); });
+  };
   try {
-    shell->Start();
-    io = std::thread([&network, signal_fd, end_fd] { network.Serve(signal_fd, end_fd); });
+    if (line.hold) {
+      shell->Hold();
+      serve();
+      shell->AwaitRelease();
+    }
+    if (!shell->is_closed()) shell->Start();
+    if (!line.hold) serve();
     shell->Work();
   } catch (const ConfigError& error) {
     shell->Fail(error.what());
@@ -139,7 +148,7 @@ int Act(const CommandLine& line, Message* config, const ModuleFactory& factory) 
   std::shared_ptr<void> module = factory(bus);
   CheckRemap(line, shell);
   if (!describes) {
-    return line.replay.empty() ? RunLive(&shell, std::move(module))
+    return line.replay.empty() ? RunLive(line, &shell, std::move(module))
                                : RunReplay(line, &shell, std::move(module));
   }
   const ModuleDescription description = Describe(shell, *config->GetDescriptor());

@@ -18,8 +18,8 @@
 namespace declutter::runtime {
 
 // The process around a module, without its links to the world: messages come in through Receive()
-// (from the network or from a log) and go out through a sink. Receive(), Stop() and PublishStatus()
-// may be called from another thread than the rest.
+// (from the network or from a log) and go out through a sink. Receive(), Stop(), Release() and
+// PublishStatus() may be called from another thread than the rest.
 class Shell {
  public:
   struct Identity {
@@ -49,12 +49,19 @@ class Shell {
   const std::vector<Port>& outputs() const { return outputs_; }
   // Names of the module's channels, before --remap.
   const std::vector<std::string>& channels() const { return channels_; }
+  bool is_closed() const { return inbox_.closed(); }
   bool is_source() const { return static_cast<bool>(poll_); }
 
   void Connect(Sink sink) { sink_ = std::move(sink); }
 
   // Checks a message and puts it in the mailbox. Damaged ones are counted and reported.
   void Receive(const std::string& channel, const std::uint8_t* data, std::size_t size) noexcept;
+
+  // Takes the place of another process: handles nothing until Release(), and then what is later
+  // than the last frame of that process [us].
+  void Hold() { inbox_.Hold(); }
+  void Release(std::int64_t last_utime) { inbox_.Release(last_utime); }
+  void AwaitRelease() { inbox_.AwaitRelease(); }
 
   // Calls what the module wants called before the first message.
   void Start();

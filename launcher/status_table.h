@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "launcher/control.pb.h"
+
+namespace declutter::launcher {
+
+// For people: a line for each process under a head, then what each last complained of.
+std::string StatusTable(const ControlReply& reply);
+
+}  // namespace declutter::launcher
