@@ -11,7 +11,7 @@ packages=(
   libprotobuf-dev protobuf-compiler  # parameters
   libeigen3-dev libpcl-dev
   libpng-dev libturbojpeg0-dev libzstd-dev nlohmann-json3-dev
-  libgtest-dev libgmock-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
 )
 
 is_installed() {
