@@ -15,6 +15,7 @@ namespace declutter::launcher {
 namespace {
 
 constexpr int kExecFailed = 127;
+constexpr int64_t kMaxLog = 10 << 20;  // [byte] of each of two files
 
 // A pipe whose ends no other child inherits.
 std::pair<int, int> OpenPipe() {
@@ -23,18 +24,9 @@ std::pair<int, int> OpenPipe() {
   return {ends[0], ends[1]};
 }
 
-void WriteAll(int fd, const std::string& text) {
-  for (size_t done = 0; done < text.size();) {
-    const ssize_t written = write(fd, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;  // nothing better to do with a line that nobody takes
-    done += static_cast<size_t>(written);
-  }
-}
-
 // Between fork and exec: only calls that are safe in a child of a process with threads.
-[[noreturn]] void Become(char* const argv[], pid_t parent, int stdin_fd, int log_fd, int stderr_fd,
-                         int fault_fd) {
+[[noreturn]] void Become(char* const argv[], pid_t parent, int stdin_fd, int stdout_fd,
+                         int stderr_fd, int fault_fd) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // The parent may have died before the line above: then nobody would end us.
   if (getppid() != parent) _exit(kExecFailed);
@@ -44,7 +36,7 @@ void WriteAll(int fd, const std::string& text) {
   sigprocmask(SIG_SETMASK, &none, nullptr);
   signal(SIGPIPE, SIG_DFL);
   dup2(stdin_fd, STDIN_FILENO);
-  dup2(log_fd, STDOUT_FILENO);
+  dup2(stdout_fd, STDOUT_FILENO);
   dup2(stderr_fd, STDERR_FILENO);
   execv(argv[0], argv);
   const int fault = errno;
@@ -64,29 +56,29 @@ int ExecFault(int fd) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& log_path) {
-  log_fd_ = open(log_path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (log_fd_ < 0) throw std::runtime_error(log_path + ": " + strerror(errno));
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& log_path)
+    : log_(log_path, kMaxLog) {
   std::vector<char*> argv;
   for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
   const auto [stdin_read_end, stdin_write_end] = OpenPipe();
   stdin_fd_ = stdin_write_end;
-  const auto [read_end, write_end] = OpenPipe();
   const auto [fault_read_end, fault_write_end] = OpenPipe();
-  stderr_fd_ = read_end;
-  fcntl(stderr_fd_, F_SETFL, O_NONBLOCK);
   const pid_t parent = getpid();
   pid_ = fork();
-  if (pid_ == 0) Become(argv.data(), parent, stdin_read_end, log_fd_, write_end, fault_write_end);
+  if (pid_ == 0) {
+    Become(argv.data(), parent, stdin_read_end, stdout_.child_end(), stderr_.child_end(),
+           fault_write_end);
+  }
   close(stdin_read_end);
-  close(write_end);
   close(fault_write_end);
+  stdout_.CloseChildEnd();
+  stderr_.CloseChildEnd();
   const int fault = pid_ < 0 ? errno : ExecFault(fault_read_end);
   close(fault_read_end);
   if (fault == 0) return;
   if (pid_ > 0) waitpid(pid_, nullptr, 0);
-  CloseAll();
+  CloseStdin();
   throw std::runtime_error(command[0] + ": " + strerror(fault));
 }
 
@@ -95,40 +87,25 @@ ChildProcess::~ChildProcess() {
     kill(-pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
   }
-  CloseAll();
+  CloseStdin();
 }
 
-void ChildProcess::CloseAll() {
-  for (const int fd : {stdin_fd_, stderr_fd_, log_fd_}) {
-    if (fd >= 0) close(fd);
-  }
+void ChildProcess::CloseStdin() {
+  if (stdin_fd_ >= 0) close(std::exchange(stdin_fd_, -1));
 }
 
 void ChildProcess::Send(const std::string& text) {
   if (stdin_fd_ < 0) return;
   WriteAll(stdin_fd_, text);
-  close(std::exchange(stdin_fd_, -1));
+  CloseStdin();
 }
 
-bool ChildProcess::ForwardStderr() {
-  char buffer[4096];
-  for (;;) {
-    const ssize_t num_read = read(stderr_fd_, buffer, sizeof(buffer));
-    if (num_read < 0) return errno == EAGAIN || errno == EINTR;
-    if (num_read == 0) break;
-    line_.append(buffer, static_cast<size_t>(num_read));
-    const size_t end = line_.rfind('\n');
-    if (end == std::string::npos) continue;
-    Forward(line_.substr(0, end + 1));
-    line_.erase(0, end + 1);
-  }
-  if (!line_.empty()) Forward(std::exchange(line_, {}) + "\n");
-  return false;
-}
-
-void ChildProcess::Forward(const std::string& text) {
-  WriteAll(log_fd_, text);
-  WriteAll(STDERR_FILENO, text);
+void ChildProcess::ForwardOutput() {
+  stdout_.Forward([this](const std::string& lines) { log_.Write(lines); });
+  stderr_.Forward([this](const std::string& lines) {
+    log_.Write(lines);
+    WriteAll(STDERR_FILENO, lines);
+  });
 }
 
 void ChildProcess::Signal(int signal) {
@@ -147,7 +124,7 @@ std::optional<Ending> ChildProcess::Reap() {
   int status = 0;
   waitpid(pid_, &status, 0);
   pid_ = -1;
-  ForwardStderr();
+  ForwardOutput();
   if (WIFEXITED(status)) {
     const int code = WEXITSTATUS(status);
     return Ending{code, 0, "exit code " + std::to_string(code)};

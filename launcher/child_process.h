@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "launcher/output_pipe.h"
+#include "launcher/rotating_log.h"
+
 namespace declutter::launcher {
 
 // How a process ended.
@@ -16,7 +19,7 @@ struct Ending {
 };
 
 // A child in a process group of its own that dies with the thread that started it, however that
-// ends. What it prints goes to a log file, stderr to ours as well; its stdin is what is sent to it.
+// ends. What it prints goes to a log, stderr to ours as well; its stdin is what is sent to it.
 class ChildProcess {
  public:
   // Starts command[0], a path, with the arguments command[1...], appending to log_path. Throws
@@ -28,11 +31,11 @@ class ChildProcess {
 
   pid_t pid() const { return pid_; }  // -1 after its end
 
-  // Readable when the child has written to stderr.
-  int stderr_fd() const { return stderr_fd_; }
+  // Readable when the child has written to stderr; -1 after the end of that.
+  int stderr_fd() const { return stderr_.fd(); }
 
-  // Copies what the child has written to stderr, by whole lines. False at its end.
-  bool ForwardStderr();
+  // Copies what the child has printed, by whole lines.
+  void ForwardOutput();
 
   // Writes to its stdin, once, and closes that.
   void Send(const std::string& text);
@@ -44,14 +47,13 @@ class ChildProcess {
   std::optional<Ending> Reap();
 
  private:
-  void Forward(const std::string& text);
-  void CloseAll();
+  void CloseStdin();
 
-  pid_t pid_ = -1;
+  RotatingLog log_;
+  OutputPipe stdout_;
+  OutputPipe stderr_;
   int stdin_fd_ = -1;
-  int stderr_fd_ = -1;
-  int log_fd_ = -1;
-  std::string line_;  // the last one, until it is complete
+  pid_t pid_ = -1;
 };
 
 }  // namespace declutter::launcher

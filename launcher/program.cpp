@@ -14,9 +14,8 @@ void Program::Start() { Launch({}, false); }
 void Program::Launch(const std::vector<std::string>& arguments, bool keeps_stdin) {
   std::vector<std::string> command = command_;
   command.insert(command.end(), arguments.begin(), arguments.end());
-  is_ready_ = is_ending_ = has_stderr_ = false;
+  is_ready_ = is_ending_ = false;
   child_ = std::make_unique<ChildProcess>(command, log_path_);
-  has_stderr_ = true;
   if (!keeps_stdin) child_->Send("");
 }
 
@@ -31,16 +30,15 @@ void Program::Signal(int signal) {
 }
 
 void Program::OnTurn(double) {
-  if (has_stderr_) has_stderr_ = child_->ForwardStderr();
+  if (child_) child_->ForwardOutput();
 }
 
 std::optional<Ending> Program::Reap() {
   const auto ending = child_ ? child_->Reap() : std::nullopt;
   if (!ending) return ending;
-  has_stderr_ = false;
   return Judge(*ending);
 }
 
-int Program::fd() const { return has_stderr_ ? child_->stderr_fd() : -1; }
+int Program::fd() const { return child_ ? child_->stderr_fd() : -1; }
 
 }  // namespace declutter::launcher

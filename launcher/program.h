@@ -39,7 +39,6 @@ class Program : public Process {
   std::vector<std::string> command_;
   std::string log_path_;
   std::unique_ptr<ChildProcess> child_;
-  bool has_stderr_ = false;
 };
 
 }  // namespace declutter::launcher

@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 
 #include "modules/runtime/run.h"
 #include "tests/process/fake.pb.h"
@@ -32,6 +33,10 @@ class FakeFilter {
     if (frame.utime == config_.at_frame()) {
       if (config_.mishap() == "crashes") std::raise(SIGSEGV);
       if (config_.mishap() == "refuses") throw runtime::ConfigError("not with these parameters");
+      if (config_.mishap() == "fills_stdout") {
+        const std::string line(999, '-');
+        for (int i = 0; i < 25'000; ++i) std::puts(line.c_str());
+      }
       if (config_.mishap() == "gets_stuck") {
         bus.Warn("mishap", "stuck");
         Hang();

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "tests/process/fake_graph.h"
@@ -99,6 +100,15 @@ TEST_F(RunTest, KillsAModuleThatDoesNotStopAndSaysSo) {
   const Outcome outcome = launcher.Wait();
   EXPECT_EQ(outcome.code, 143);
   EXPECT_THAT(outcome.err, HasSubstr("filter still runs 0.5 s after it was asked to stop: killed"));
+}
+
+TEST_F(RunTest, KeepsNoMoreThanTwoFilesOfAModuleThatFillsItsStdout) {
+  const std::string graph = FakeGraph(folder_, "", FilterConfig("mishap: \"fills_stdout\""));
+  EXPECT_EQ(RunLauncher({"run", graph}, folder_).code, 0);
+  const std::string log = folder_.Path("logs/latest/filter.log");
+  EXPECT_GT(std::filesystem::file_size(log + ".1"), 9u << 20);
+  EXPECT_LE(std::filesystem::file_size(log + ".1"), 10u << 20);
+  EXPECT_LE(std::filesystem::file_size(log), 10u << 20);
 }
 
 TEST_F(RunTest, StopsInOrderOnASignal) {
