@@ -28,6 +28,27 @@ add_library(turbojpeg INTERFACE)
 target_include_directories(turbojpeg SYSTEM INTERFACE ${TURBOJPEG_INCLUDE_DIR})
 target_link_libraries(turbojpeg INTERFACE ${TURBOJPEG_LIBRARY})
 
+# OpenNI2 loads its drivers from the folder OpenNI2/Drivers beside its library. A folder of our own
+# holds a link to the library and to each installed driver, so that our driver is found without
+# being installed. The dummy device of Debian's package crashes most programs that load it.
+find_path(OPENNI_INCLUDE_DIR OpenNI.h PATH_SUFFIXES openni2 REQUIRED)
+find_library(OPENNI_LIBRARY OpenNI2 REQUIRED)
+set(OPENNI_FOLDER ${CMAKE_BINARY_DIR}/openni2)
+set(OPENNI_DRIVER_FOLDER ${OPENNI_FOLDER}/OpenNI2/Drivers)
+get_filename_component(installed_folder ${OPENNI_LIBRARY} DIRECTORY)
+file(GLOB installed_drivers ${installed_folder}/OpenNI2/Drivers/lib*.so.0)
+list(FILTER installed_drivers EXCLUDE REGEX "libDummyDevice")
+file(MAKE_DIRECTORY ${OPENNI_DRIVER_FOLDER})
+foreach(driver ${installed_drivers})
+  get_filename_component(file_name ${driver} NAME)
+  file(CREATE_LINK ${driver} ${OPENNI_DRIVER_FOLDER}/${file_name} SYMBOLIC)
+endforeach()
+file(CREATE_LINK ${installed_folder}/libOpenNI2.so.0 ${OPENNI_FOLDER}/libOpenNI2.so.0 SYMBOLIC)
+add_library(openni2 SHARED IMPORTED)
+set_target_properties(openni2 PROPERTIES
+  IMPORTED_LOCATION ${OPENNI_FOLDER}/libOpenNI2.so.0 IMPORTED_SONAME libOpenNI2.so.0)
+target_include_directories(openni2 SYSTEM INTERFACE ${OPENNI_INCLUDE_DIR})
+
 find_path(PCL_INCLUDE_DIR pcl/point_types.h PATH_SUFFIXES pcl-1.13 pcl-1.12 pcl REQUIRED)
 foreach(component common io kdtree search features filters segmentation sample_consensus surface)
   find_library(PCL_${component}_LIBRARY pcl_${component} REQUIRED)

@@ -1,7 +1,8 @@
-# add_parameters(NAME FILE.proto... [DEPENDS other...]): a library of the generated classes.
-# Generated code is compiled without our warnings and included as system headers.
+# add_parameters(NAME FILE.proto... [SHARED] [DEPENDS other...]): a library of the generated classes.
+# Generated code is compiled without our warnings and included as system headers. SHARED: also for
+# what a process loads while it runs, since its types may be registered only once in a process.
 function(add_parameters name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "SHARED" "" "DEPENDS" ${ARGN})
   set(out ${CMAKE_BINARY_DIR}/generated/proto)
   file(MAKE_DIRECTORY ${out})
   set(sources)
@@ -15,7 +16,11 @@ function(add_parameters name)
       DEPENDS ${CMAKE_SOURCE_DIR}/${path} ${CMAKE_SOURCE_DIR}/modules/runtime/parameter.proto)
     list(APPEND sources ${out}/${stem}.pb.cc ${out}/${stem}.pb.h)
   endforeach()
-  add_library(${name} STATIC ${sources})
+  if(ARG_SHARED)
+    add_library(${name} SHARED ${sources})
+  else()
+    add_library(${name} STATIC ${sources})
+  endif()
   target_compile_options(${name} PRIVATE -w)
   target_include_directories(${name} SYSTEM PUBLIC ${out})
   target_link_libraries(${name} PUBLIC protobuf::libprotobuf ${ARG_DEPENDS})

@@ -10,6 +10,7 @@ packages=(
   liblcm-dev liblcm-bin              # bus, lcm-gen and lcm-logger
   libprotobuf-dev protobuf-compiler  # parameters
   libeigen3-dev libpcl-dev
+  libopenni2-dev                     # depth sensors and .oni files
   libpng-dev libturbojpeg0-dev libzstd-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )
