@@ -20,6 +20,14 @@ void Bus::Warn(const std::string& cause, const std::string& text) { shell_->Warn
 
 void Bus::Fail(const std::string& text) { shell_->Fail(text); }
 
+void Bus::SetTrouble(const std::string& text) { shell_->SetTrouble(text); }
+
+void Bus::Note(const std::string& text) { shell_->Note(text); }
+
+void Bus::CountSkipped(std::int64_t num_frames) { shell_->CountSkipped(num_frames); }
+
+void Bus::Reject(const std::string& input, const std::string& why) { shell_->Reject(input, why); }
+
 void PublishEncoded(Shell* shell, const std::string& channel, const Bytes& message) {
   shell->Publish(channel, message);
 }

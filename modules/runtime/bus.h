@@ -79,6 +79,17 @@ class Bus {
   // As Warn, and the process goes on but will end with exit code 1.
   void Fail(const std::string& text);
 
+  // What is wrong until the next call, shown in every status until then; empty: nothing. A line on
+  // stderr when it changes.
+  void SetTrouble(const std::string& text);
+
+  // One line on stderr about what is not wrong.
+  void Note(const std::string& text);
+
+  // For sources: frames of a sensor that were not read, and one that was of no use.
+  void CountSkipped(std::int64_t num_frames);
+  void Reject(const std::string& input, const std::string& why);
+
  private:
   void AddSubscription(std::vector<Port> ports, PartsHandler handler);
   std::string AddOutput(Port port);  // its channel on the wire

@@ -44,6 +44,11 @@ void Health::Complain(const std::string& text) {
   complaint_ = text;
 }
 
+void Health::SetTrouble(const std::string& text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  trouble_ = text;
+}
+
 module_status_t Health::Report() {
   const std::lock_guard<std::mutex> lock(mutex_);
   module_status_t status{};
@@ -55,7 +60,7 @@ module_status_t Health::Report() {
   status.last_utime = last_utime_;
   status.processing_ms = num_timed_ > 0 ? processing_ms_ / num_timed_ : 0;
   status.max_processing_ms = max_processing_ms_;
-  status.message = complaint_;
+  status.message = complaint_.empty() ? trouble_ : complaint_;
   num_timed_ = 0;
   processing_ms_ = 0;
   max_processing_ms_ = 0;

@@ -17,7 +17,8 @@ class Health {
   void Published(std::int64_t utime);
   void Skipped(std::int64_t num_frames);
   void Rejected();
-  void Complain(const std::string& text);
+  void Complain(const std::string& text);    // shown in the next report
+  void SetTrouble(const std::string& text);  // shown in every report without a complaint
 
   // Counts of the whole run, times and complaint since the last report. Who the process is, its
   // state and the time of the report are left to the caller.
@@ -39,6 +40,7 @@ class Health {
   double processing_ms_ = 0;
   double max_processing_ms_ = 0;
   std::string complaint_;
+  std::string trouble_;
 };
 
 }  // namespace declutter::runtime

@@ -86,6 +86,12 @@ void Shell::Fail(const std::string& text) {
   Warn(text, text);
 }
 
+void Shell::SetTrouble(const std::string& text) {
+  health_.SetTrouble(text);
+  const std::string line = text.empty() ? "all is well again" : text;
+  journal_.Write(line, line);
+}
+
 void Shell::Reject(const std::string& channel, const std::string& why) {
   health_.Rejected();
   Warn("rejected " + channel, channel + ": rejected: " + why);

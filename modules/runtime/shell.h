@@ -42,6 +42,10 @@ class Shell {
   void Publish(const std::string& channel, const Bytes& message);
   void Warn(const std::string& cause, const std::string& text);
   void Fail(const std::string& text);
+  void SetTrouble(const std::string& text);
+  void Note(const std::string& text) { journal_.Write(text, text); }
+  void CountSkipped(std::int64_t num_frames) { health_.Skipped(num_frames); }
+  void Reject(const std::string& channel, const std::string& why);
   bool lossless() const { return identity_.lossless; }
 
   // What the module asked for; channels as on the wire.
@@ -95,7 +99,6 @@ class Shell {
   void Accept(std::size_t subscription, std::size_t port, const std::uint8_t* data,
               std::size_t size);
   void Handle(const Delivery& delivery);
-  void Reject(const std::string& channel, const std::string& why);
   void Skip(std::int64_t num_frames);
   bool PollOnce(std::chrono::steady_clock::time_point* next);
 
