@@ -4,21 +4,32 @@
 #include <utility>
 
 namespace declutter {
+namespace {
 
-KinectSource::KinectSource(const KinectSourceConfig& config, bool lossless, ReadFrame read_frame)
-    : config_(config), lossless_(lossless), read_frame_(std::move(read_frame)) {}
+// Of a recording with a gap.
+constexpr double kLongestPause_s = 5;
+
+}  // namespace
+
+KinectSource::KinectSource(const KinectSourceConfig& config, bool lossless, Input input,
+                           ReadFrame read_frame)
+    : config_(config), lossless_(lossless), input_(input), read_frame_(std::move(read_frame)) {}
 
 KinectSource::Step KinectSource::Advance(double now_s) {
-  // The next frame is read while the last one is on its way.
-  const bool has_next = ReadAhead();
-  const bool must_wait = awaits_result_ && (lossless_ || !has_next);
-  if (must_wait) {
+  // The next frame of a recording is read while the last one is on its way.
+  const bool is_blocked = lossless_ && awaits_result_;
+  if (!is_blocked || input_ == Input::kRecording) ReadNext();
+  if (awaits_result_ && (lossless_ || at_end_)) {
     const double left_s = sent_s_ + config_.result_timeout_s() - now_s;
     if (left_s > 0) return {nullptr, "", left_s};
     if (lossless_) return Resend(now_s);
   }
-  if (!has_next) return {nullptr, "", std::nullopt};
-  if (!lossless_ && now_s < due_s_) return {nullptr, "", due_s_ - now_s};
+  if (at_end_) return {nullptr, "", std::nullopt};
+  if (!next_) return {nullptr, "", read_again_s_};
+  const double due_s = in_flight_ ? due_s_ + PeriodUntil(*next_) : now_s;
+  if (!lossless_ && now_s < due_s) return {nullptr, "", due_s - now_s};
+  // A source that fell behind does not catch up in a burst.
+  due_s_ = now_s - due_s > PeriodUntil(*next_) ? now_s : due_s;
   return Begin(now_s);
 }
 
@@ -26,12 +37,23 @@ void KinectSource::OnResult(int64_t utime) {
   if (in_flight_ && in_flight_->depth.header.utime == utime) awaits_result_ = false;
 }
 
-bool KinectSource::ReadAhead() {
-  if (!next_ && !at_end_) {
-    next_ = read_frame_();
-    at_end_ = !next_;
-  }
-  return next_.has_value();
+void KinectSource::ReadNext() {
+  if (next_ || at_end_) return;
+  at_end_ = config_.num_frames() > 0 && num_read_ == config_.num_frames();
+  if (at_end_) return;
+  ReadResult read = read_frame_();
+  next_ = std::move(read.frame);
+  read_again_s_ = read.wait_s;
+  at_end_ = read.at_end;
+  if (next_) ++num_read_;
+}
+
+// From in_flight_ to the next frame, when both leave as fast as they should [s].
+double KinectSource::PeriodUntil(const RecordedFrame& next) const {
+  if (input_ == Input::kSensor || !in_flight_) return 0;
+  if (config_.rate_hz() > 0) return 1 / config_.rate_hz();
+  const int64_t taken_us = next.depth.header.utime - in_flight_->depth.header.utime;
+  return std::clamp(1e-6 * static_cast<double>(taken_us), 0.0, kLongestPause_s);
 }
 
 KinectSource::Step KinectSource::Begin(double now_s) {
@@ -40,9 +62,6 @@ KinectSource::Step KinectSource::Begin(double now_s) {
   awaits_result_ = true;
   num_tries_ = 1;
   sent_s_ = now_s;
-  // A source that fell behind does not catch up in a burst.
-  const double period_s = 1 / config_.rate_hz();
-  due_s_ = now_s - due_s_ > period_s ? now_s + period_s : due_s_ + period_s;
   Step step{&*in_flight_, "", 0.0};
   const FrameHeader& header = in_flight_->depth.header;
   const std::string& what = header.error.empty() ? in_flight_->color_error : header.error;

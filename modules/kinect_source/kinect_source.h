@@ -10,18 +10,27 @@
 
 namespace declutter {
 
+// What reading a frame gives.
+struct ReadResult {
+  std::optional<RecordedFrame> frame;
+  double wait_s = 0;    // without a frame: when to read again
+  bool at_end = false;  // no further frame
+};
+
 // Decides when which frame leaves. Knows neither clock nor network: times are in seconds of any
 // steady clock.
 //
 // Lossless: one frame in flight. A result with its utime releases the next; without one it is sent
 // again, and after config.max_tries it is sent once more as an error, so that it still gets its
-// line, before the source goes on. Otherwise: frames leave at config.rate_hz.
+// line, before the source goes on. Otherwise: frames of a recording leave at config.rate_hz, or as
+// far apart as they were taken; those of a sensor when they come. A sensor is not read before its
+// frame can leave, so that it is the newest.
 class KinectSource {
  public:
-  // Gives frames until there is nothing left.
-  using ReadFrame = std::function<std::optional<RecordedFrame>()>;
+  enum class Input { kRecording, kSensor };
+  using ReadFrame = std::function<ReadResult()>;
 
-  KinectSource(const KinectSourceConfig& config, bool lossless, ReadFrame read_frame);
+  KinectSource(const KinectSourceConfig& config, bool lossless, Input input, ReadFrame read_frame);
 
   struct Step {
     const RecordedFrame* publish = nullptr;  // valid until the next call; null: nothing now
@@ -38,18 +47,22 @@ class KinectSource {
  private:
   Step Begin(double now_s);
   Step Resend(double now_s);
-  bool ReadAhead();
+  void ReadNext();
+  double PeriodUntil(const RecordedFrame& next) const;
 
   KinectSourceConfig config_;
   bool lossless_;
+  Input input_;
   ReadFrame read_frame_;
   std::optional<RecordedFrame> next_;
+  int64_t num_read_ = 0;
+  double read_again_s_ = 0;  // from now; while there is no next_
   bool at_end_ = false;
   std::optional<RecordedFrame> in_flight_;
   bool awaits_result_ = false;  // of in_flight_
   int num_tries_ = 0;
   double sent_s_ = 0;
-  double due_s_ = 0;  // when the next frame may leave at config.rate_hz
+  double due_s_ = 0;  // when in_flight_ was due to leave
 };
 
 }  // namespace declutter

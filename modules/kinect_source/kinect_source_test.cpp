@@ -8,6 +8,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
+constexpr auto kRecording = KinectSource::Input::kRecording;
+constexpr auto kSensor = KinectSource::Input::kSensor;
+
 KinectSourceConfig Config() {
   KinectSourceConfig config;
   config.set_rate_hz(10);
@@ -26,9 +29,11 @@ RecordedFrame Frame(int64_t utime) {
 
 // Gives frames with utime 0, 1, ... num_frames - 1.
 KinectSource::ReadFrame Frames(int num_frames) {
-  return [num_frames, next = 0]() mutable -> std::optional<RecordedFrame> {
-    if (next == num_frames) return std::nullopt;
-    return Frame(next++);
+  return [num_frames, next = 0]() mutable {
+    ReadResult result;
+    result.at_end = next == num_frames;
+    if (!result.at_end) result.frame = Frame(next++);
+    return result;
   };
 }
 
@@ -38,7 +43,7 @@ int64_t UtimeOf(const KinectSource::Step& step) {
 }
 
 TEST(KinectSourceTest, WaitsForTheResultBeforeTheNextFrame) {
-  KinectSource source(Config(), true, Frames(2));
+  KinectSource source(Config(), true, kRecording, Frames(2));
   EXPECT_EQ(UtimeOf(source.Advance(100)), 0);
   const auto waiting = source.Advance(101);
   EXPECT_EQ(UtimeOf(waiting), -1);
@@ -48,7 +53,7 @@ TEST(KinectSourceTest, WaitsForTheResultBeforeTheNextFrame) {
 }
 
 TEST(KinectSourceTest, IgnoresResultsOfOtherFrames) {
-  KinectSource source(Config(), true, Frames(2));
+  KinectSource source(Config(), true, kRecording, Frames(2));
   source.OnResult(0);
   EXPECT_EQ(UtimeOf(source.Advance(100)), 0);
   source.OnResult(7);
@@ -56,7 +61,7 @@ TEST(KinectSourceTest, IgnoresResultsOfOtherFrames) {
 }
 
 TEST(KinectSourceTest, EndsWhenTheLastResultIsOut) {
-  KinectSource source(Config(), true, Frames(1));
+  KinectSource source(Config(), true, kRecording, Frames(1));
   EXPECT_EQ(UtimeOf(source.Advance(100)), 0);
   EXPECT_TRUE(source.Advance(100).wait_s);
   source.OnResult(0);
@@ -67,12 +72,12 @@ TEST(KinectSourceTest, EndsWhenTheLastResultIsOut) {
 }
 
 TEST(KinectSourceTest, EndsAtOnceWithoutFrames) {
-  KinectSource source(Config(), true, Frames(0));
+  KinectSource source(Config(), true, kRecording, Frames(0));
   EXPECT_FALSE(source.Advance(100).wait_s);
 }
 
 TEST(KinectSourceTest, SendsAFrameAgainAfterTheTimeout) {
-  KinectSource source(Config(), true, Frames(1));
+  KinectSource source(Config(), true, kRecording, Frames(1));
   source.Advance(100);
   EXPECT_EQ(UtimeOf(source.Advance(102.9)), -1);
   const auto again = source.Advance(103);
@@ -84,7 +89,7 @@ TEST(KinectSourceTest, SendsAFrameAgainAfterTheTimeout) {
 }
 
 TEST(KinectSourceTest, SendsAnErrorForAFrameWithoutResult) {
-  KinectSource source(Config(), true, Frames(2));
+  KinectSource source(Config(), true, kRecording, Frames(2));
   source.Advance(100);
   source.Advance(103);
   const auto error = source.Advance(106);
@@ -98,7 +103,7 @@ TEST(KinectSourceTest, SendsAnErrorForAFrameWithoutResult) {
 }
 
 TEST(KinectSourceTest, GoesOnWhenEvenTheErrorHasNoResult) {
-  KinectSource source(Config(), true, Frames(2));
+  KinectSource source(Config(), true, kRecording, Frames(2));
   source.Advance(100);
   source.Advance(103);
   source.Advance(106);
@@ -111,7 +116,7 @@ TEST(KinectSourceTest, GoesOnWhenEvenTheErrorHasNoResult) {
 TEST(KinectSourceTest, ReportsAnUnreadableFrameAndSendsIt) {
   auto frame = Frame(0);
   frame.depth.header.error = "depth.png: truncated PNG";
-  KinectSource source(Config(), true, [&] { return std::optional(frame); });
+  KinectSource source(Config(), true, kRecording, [&] { return ReadResult{frame}; });
   const auto step = source.Advance(100);
   EXPECT_EQ(UtimeOf(step), 0);
   EXPECT_EQ(step.failure, "frame0: depth.png: truncated PNG");
@@ -120,14 +125,14 @@ TEST(KinectSourceTest, ReportsAnUnreadableFrameAndSendsIt) {
 TEST(KinectSourceTest, ReportsUnusableColourAndSendsTheFrame) {
   auto frame = Frame(0);
   frame.color_error = "rgb.png: truncated PNG";
-  KinectSource source(Config(), true, [&] { return std::optional(frame); });
+  KinectSource source(Config(), true, kRecording, [&] { return ReadResult{frame}; });
   const auto step = source.Advance(100);
   EXPECT_EQ(UtimeOf(step), 0);
   EXPECT_EQ(step.failure, "frame0: rgb.png: truncated PNG");
 }
 
 TEST(KinectSourceTest, KeepsItsRateWithoutWaitingForResults) {
-  KinectSource source(Config(), false, Frames(3));
+  KinectSource source(Config(), false, kRecording, Frames(3));
   EXPECT_EQ(UtimeOf(source.Advance(100)), 0);
   const auto early = source.Advance(100.04);
   EXPECT_EQ(UtimeOf(early), -1);
@@ -138,14 +143,14 @@ TEST(KinectSourceTest, KeepsItsRateWithoutWaitingForResults) {
 }
 
 TEST(KinectSourceTest, DoesNotCatchUpInABurst) {
-  KinectSource source(Config(), false, Frames(3));
+  KinectSource source(Config(), false, kRecording, Frames(3));
   source.Advance(100);
   EXPECT_EQ(UtimeOf(source.Advance(105)), 1);
   EXPECT_NEAR(source.Advance(105).wait_s.value(), 0.1, 1e-9);
 }
 
 TEST(KinectSourceTest, WaitsForTheLastResultAtARateToo) {
-  KinectSource source(Config(), false, Frames(1));
+  KinectSource source(Config(), false, kRecording, Frames(1));
   source.Advance(100);
   EXPECT_EQ(source.Advance(101).wait_s, 2.0);
   source.OnResult(0);
@@ -153,12 +158,53 @@ TEST(KinectSourceTest, WaitsForTheLastResultAtARateToo) {
 }
 
 TEST(KinectSourceTest, EndsAtARateWithoutTheLastResult) {
-  KinectSource source(Config(), false, Frames(1));
+  KinectSource source(Config(), false, kRecording, Frames(1));
   source.Advance(100);
   const auto last = source.Advance(103);
   EXPECT_EQ(UtimeOf(last), -1);
   EXPECT_EQ(last.failure, "");
   EXPECT_FALSE(last.wait_s);
+}
+
+TEST(KinectSourceTest, PlaysARecordingAsItWasTaken) {
+  KinectSourceConfig config = Config();
+  config.set_rate_hz(0);
+  auto frames = [next = 0]() mutable { return ReadResult{Frame(next++ * 200'000)}; };
+  KinectSource source(config, false, kRecording, frames);
+  EXPECT_EQ(UtimeOf(source.Advance(100)), 0);
+  EXPECT_NEAR(source.Advance(100.05).wait_s.value(), 0.15, 1e-9);
+  EXPECT_EQ(UtimeOf(source.Advance(100.2)), 200'000);
+}
+
+TEST(KinectSourceTest, EndsAfterTheNumberOfFramesAskedFor) {
+  KinectSourceConfig config = Config();
+  config.set_num_frames(1);
+  KinectSource source(config, true, kRecording, Frames(5));
+  EXPECT_EQ(UtimeOf(source.Advance(100)), 0);
+  source.OnResult(0);
+  EXPECT_FALSE(source.Advance(100).wait_s);
+}
+
+TEST(KinectSourceTest, SendsTheFramesOfASensorWhenTheyCome) {
+  std::optional<RecordedFrame> newest;
+  const auto read = [&newest] { return ReadResult{std::exchange(newest, std::nullopt), 0.02}; };
+  KinectSource source(Config(), false, kSensor, read);
+  EXPECT_EQ(source.Advance(100).wait_s, 0.02);
+  newest = Frame(5);
+  EXPECT_EQ(UtimeOf(source.Advance(100.001)), 5);
+  newest = Frame(6);
+  EXPECT_EQ(UtimeOf(source.Advance(100.002)), 6);
+}
+
+TEST(KinectSourceTest, InALosslessRunReadsASensorOnlyWhenTheResultIsThere) {
+  int num_read = 0;
+  const auto read = [&num_read] { return ReadResult{Frame(num_read++)}; };
+  KinectSource source(Config(), true, kSensor, read);
+  EXPECT_EQ(UtimeOf(source.Advance(100)), 0);
+  EXPECT_EQ(UtimeOf(source.Advance(101)), -1);
+  EXPECT_EQ(num_read, 1);
+  source.OnResult(0);
+  EXPECT_EQ(UtimeOf(source.Advance(101)), 1);
 }
 
 }  // namespace

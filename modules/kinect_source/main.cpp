@@ -7,7 +7,7 @@
 
 #include "modules/codec/codec.h"
 #include "modules/kinect_source/kinect_source.h"
-#include "modules/kinect_source/recording_reader.h"
+#include "modules/kinect_source/openni/input.h"
 #include "modules/runtime/bus.h"
 #include "modules/runtime/run.h"
 
@@ -19,6 +19,16 @@ constexpr double kMaxWaitS = 0.05;
 
 double SteadySeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Microseconds since 1970 that go on evenly when the wall clock is set.
+LiveReader::Now EvenWallClock() {
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  const auto wall_us = std::chrono::duration_cast<std::chrono::microseconds>(since_1970).count();
+  const double start_s = SteadySeconds();
+  return [wall_us, start_s] {
+    return wall_us + static_cast<int64_t>(1e6 * (SteadySeconds() - start_s));
+  };
 }
 
 class KinectSourceModule {
@@ -38,12 +48,18 @@ class KinectSourceModule {
  private:
   void Open(const Config& config) {
     try {
-      reader_ = std::make_unique<RecordingReader>(config);
+      Input input = OpenInput(config, EvenWallClock(), Events());
+      source_ = std::make_unique<KinectSource>(config, bus_.lossless(), input.kind, input.read);
     } catch (const std::invalid_argument& error) {
       throw runtime::ConfigError(error.what());
     }
-    source_ =
-        std::make_unique<KinectSource>(config, bus_.lossless(), [this] { return reader_->Next(); });
+  }
+
+  SensorEvents Events() {
+    return {[this](const std::string& text) { bus_.SetTrouble(text); },
+            [this](int64_t num_frames) { bus_.CountSkipped(num_frames); },
+            [this](const std::string& why) { bus_.Reject("sensor", why); },
+            [this](const std::string& text) { bus_.Note(text); }};
   }
 
   std::optional<double> Advance() {
@@ -94,7 +110,6 @@ class KinectSourceModule {
   runtime::Bus& bus_;
   runtime::Publisher<depth_frame_t> depth_;
   runtime::Publisher<color_frame_t> color_;
-  std::unique_ptr<RecordingReader> reader_;
   std::unique_ptr<KinectSource> source_;
   bool said_decimated_ = false;
 };

@@ -1,0 +1,103 @@
+#include "modules/kinect_source/openni/input.h"
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "modules/kinect_source/openni/oni_reader.h"
+#include "modules/kinect_source/openni/session.h"
+#include "modules/kinect_source/recording_reader.h"
+
+namespace declutter {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kLive = "live";
+
+bool IsLive(const std::string& input) { return input == kLive || input.rfind(kLive + ":", 0) == 0; }
+
+bool IsOniFile(const std::string& input) { return fs::path(input).extension() == ".oni"; }
+
+SensorRequest RequestOf(const KinectSourceConfig& config) {
+  if ((config.width() > 0) != (config.height() > 0)) {
+    throw std::invalid_argument("width and height: both or none");
+  }
+  const double rate_hz = config.rate_hz();
+  SensorRequest request;
+  request.width = config.width();
+  request.height = config.height();
+  request.rate_hz = static_cast<int>(std::lround(rate_hz));
+  request.color = config.color();
+  request.auto_exposure = config.auto_exposure();
+  request.auto_white_balance = config.auto_white_balance();
+  request.record_oni = config.record_oni();
+  if (IsLive(config.input()) && rate_hz != request.rate_hz) {
+    throw std::invalid_argument("rate_hz of a sensor is a whole number");
+  }
+  return request;
+}
+
+// NAME.oni, then NAME-2.oni ...: a recorder cannot go on in a file. None is overwritten.
+std::string RecordingPath(const fs::path& path, int number) {
+  if (path.empty()) return "";
+  if (!IsOniFile(path)) throw std::invalid_argument(path.string() + ": must end in .oni");
+  fs::path numbered = path;
+  if (number > 1) {
+    numbered.replace_filename(path.stem().string() + "-" + std::to_string(number) + ".oni");
+  }
+  if (fs::exists(numbered)) throw std::invalid_argument(numbered.string() + ": exists already");
+  return numbered;
+}
+
+template <typename Reader>
+Input RecordingInput(std::shared_ptr<Reader> reader) {
+  const auto read = [reader] {
+    ReadResult result;
+    result.frame = reader->Next();
+    result.at_end = !result.frame;
+    return result;
+  };
+  return {KinectSource::Input::kRecording, read};
+}
+
+Input LiveInput(const KinectSourceConfig& config, LiveReader::Now now_us, SensorEvents events) {
+  const auto session = std::make_shared<OpenniSession>();
+  SensorRequest request = RequestOf(config);
+  if (config.input() != kLive) request.device = config.input().substr(kLive.size() + 1);
+  const auto open = [session, request, num_opened = 0]() mutable {
+    SensorRequest numbered = request;
+    numbered.record_oni = RecordingPath(request.record_oni, num_opened + 1);
+    std::unique_ptr<Sensor> sensor = session->Open(numbered);
+    ++num_opened;
+    return sensor;
+  };
+  const auto reader = std::make_shared<LiveReader>(config, open, std::move(now_us), events);
+  return {KinectSource::Input::kSensor, [session, reader] { return reader->Read(); }};
+}
+
+Input OniInput(const KinectSourceConfig& config) {
+  const auto session = std::make_shared<OpenniSession>();
+  SensorRequest request = RequestOf(config);
+  request.device = config.input();
+  request.rate_hz = 0;  // at which it was recorded; rate_hz is that of playing it
+  const auto reader = std::make_shared<OniReader>(config, request);
+  Input input = RecordingInput(reader);
+  input.read = [session, read = std::move(input.read)] { return read(); };
+  return input;
+}
+
+}  // namespace
+
+Input OpenInput(const KinectSourceConfig& config, LiveReader::Now now_us, SensorEvents events) {
+  if (IsLive(config.input())) return LiveInput(config, std::move(now_us), std::move(events));
+  if (!config.record_oni().empty()) {
+    throw std::invalid_argument("record_oni: only a live sensor can be recorded");
+  }
+  if (IsOniFile(config.input())) return OniInput(config);
+  return RecordingInput(std::make_shared<RecordingReader>(config));
+}
+
+}  // namespace declutter

@@ -1,0 +1,239 @@
+#include "modules/kinect_source/openni/openni_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "modules/kinect_source/openni/frame_copy.h"
+#include "modules/kinect_source/openni/openni_text.h"
+
+namespace declutter {
+namespace {
+
+using openni::STATUS_OK;
+using openni::VideoMode;
+using openni::VideoStream;
+
+constexpr int kUsualWidth = 640, kUsualHeight = 480, kUsualRate_hz = 30;
+// Longer than a period of any mode: by then the colour of a depth image has come.
+constexpr int kColorWait_ms = 50;
+
+std::string ModeText(const SensorRequest& request) {
+  std::string text;
+  if (request.width > 0) {
+    text += std::to_string(request.width) + "x" + std::to_string(request.height) + " px";
+  }
+  if (request.rate_hz > 0) {
+    text += (text.empty() ? "" : " at ") + std::to_string(request.rate_hz) + " Hz";
+  }
+  return text.empty() ? "its default mode" : text;
+}
+
+bool Fits(const VideoMode& mode, int width, int height, int rate_hz) {
+  return IsReadable(mode) && (width == 0 || mode.getResolutionX() == width) &&
+         (height == 0 || mode.getResolutionY() == height) &&
+         (rate_hz == 0 || mode.getFps() == rate_hz);
+}
+
+std::optional<VideoMode> FindMode(const VideoStream& stream, int width, int height, int rate_hz) {
+  const VideoMode current = stream.getVideoMode();
+  if (Fits(current, width, height, rate_hz)) return current;
+  const openni::Array<VideoMode>& modes = stream.getSensorInfo().getSupportedVideoModes();
+  for (int i = 0; i < modes.getSize(); ++i) {
+    if (Fits(modes[i], width, height, rate_hz)) return modes[i];
+  }
+  return std::nullopt;
+}
+
+// What is asked; of what is left open, the usual, then anything.
+std::optional<VideoMode> ChooseMode(const VideoStream& stream, const SensorRequest& request) {
+  const int width = request.width > 0 ? request.width : kUsualWidth;
+  const int height = request.height > 0 ? request.height : kUsualHeight;
+  const int rate_hz = request.rate_hz > 0 ? request.rate_hz : kUsualRate_hz;
+  if (const auto mode = FindMode(stream, width, height, rate_hz)) return mode;
+  return FindMode(stream, request.width, request.height, request.rate_hz);
+}
+
+}  // namespace
+
+OpenniSensor::OpenniSensor(const std::string& uri, const SensorRequest& request) : uri_(uri) {
+  if (device_.open(uri.c_str()) != STATUS_OK) {
+    throw NoSensor(uri + ": cannot be opened: " + OpenniError());
+  }
+  OpenDepth(request);
+  if (request.color) OpenColor(request);
+  if (device_.isFile()) ReadOnDemand();
+  if (!request.record_oni.empty()) Record(request.record_oni);
+  openni::OpenNI::addDeviceDisconnectedListener(this);
+  try {
+    Start();
+  } catch (...) {
+    openni::OpenNI::removeDeviceDisconnectedListener(this);
+    throw;
+  }
+}
+
+OpenniSensor::~OpenniSensor() {
+  openni::OpenNI::removeDeviceDisconnectedListener(this);
+  // A recorder that lets go of a running stream can wait for it for ever.
+  color_.stop();
+  depth_.stop();
+  recorder_.destroy();
+  color_.destroy();
+  depth_.destroy();
+  device_.close();
+}
+
+void OpenniSensor::OpenDepth(const SensorRequest& request) {
+  if (!device_.hasSensor(openni::SENSOR_DEPTH)) {
+    throw UnsupportedRequest(uri_ + ": has no depth stream");
+  }
+  if (depth_.create(device_, openni::SENSOR_DEPTH) != STATUS_OK) {
+    throw NoSensor(uri_ + ": depth stream cannot be opened: " + OpenniError());
+  }
+  SetMode(request, &depth_, "depth");
+}
+
+// A sensor that lacks what is needed for colour is used without.
+void OpenniSensor::OpenColor(const SensorRequest& request) {
+  if (!device_.hasSensor(openni::SENSOR_COLOR)) {
+    lacks_ = "has no colour";
+    return;
+  }
+  constexpr auto kRegistered = openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
+  // A file does not tell whether it is registered; it was if it was recorded here.
+  if (!device_.isFile() && (!device_.isImageRegistrationModeSupported(kRegistered) ||
+                            device_.setImageRegistrationMode(kRegistered) != STATUS_OK)) {
+    lacks_ = "cannot register depth to colour: no colour";
+    return;
+  }
+  if (color_.create(device_, openni::SENSOR_COLOR) != STATUS_OK) {
+    throw NoSensor(uri_ + ": colour stream cannot be opened: " + OpenniError());
+  }
+  SensorRequest same = request;
+  same.width = depth_.getVideoMode().getResolutionX();
+  same.height = depth_.getVideoMode().getResolutionY();
+  try {
+    SetMode(same, &color_, "colour");
+  } catch (const UnsupportedRequest&) {
+    color_.destroy();
+    device_.setImageRegistrationMode(openni::IMAGE_REGISTRATION_OFF);
+    lacks_ = "has no colour of the size of its depth";
+    return;
+  }
+  if (openni::CameraSettings* settings = color_.getCameraSettings()) {
+    settings->setAutoExposureEnabled(request.auto_exposure);
+    settings->setAutoWhiteBalanceEnabled(request.auto_white_balance);
+  }
+}
+
+void OpenniSensor::SetMode(const SensorRequest& request, VideoStream* stream, const char* what) {
+  const std::optional<VideoMode> mode = ChooseMode(*stream, request);
+  if (!mode) {
+    throw UnsupportedRequest(uri_ + ": no " + what + " with " + ModeText(request) +
+                             "; supported: " + ModesText(stream->getSensorInfo()));
+  }
+  if (device_.isFile()) return;  // has one mode, and no setting
+  if (stream->setVideoMode(*mode) != STATUS_OK) {
+    throw NoSensor(uri_ + ": refuses " + what + " with " + ModeText(request) + ": " +
+                   OpenniError());
+  }
+  if (stream->isCroppingSupported()) stream->resetCropping();
+  stream->setMirroringEnabled(false);
+}
+
+void OpenniSensor::ReadOnDemand() {
+  openni::PlaybackControl* playback = device_.getPlaybackControl();
+  if (playback == nullptr) throw NoSensor(uri_ + ": cannot be played");
+  num_frames_ = playback->getNumberOfFrames(depth_);
+  if (num_frames_ <= 0) throw NoSensor(uri_ + ": no depth frames in it");
+  playback->setRepeatEnabled(false);
+  playback->setSpeed(-1);  // a frame for each that is waited for
+}
+
+void OpenniSensor::Record(const std::string& path) {
+  const auto attach = [this](VideoStream& stream) {
+    return !stream.isValid() || recorder_.attach(stream) == STATUS_OK;
+  };
+  if (recorder_.create(path.c_str()) != STATUS_OK || !attach(depth_) || !attach(color_) ||
+      recorder_.start() != STATUS_OK) {
+    throw UnsupportedRequest(path + ": cannot be recorded: " + OpenniError());
+  }
+}
+
+void OpenniSensor::Start() {
+  const bool has_color = color_.isValid();
+  if (has_color && color_.start() != STATUS_OK) {
+    throw NoSensor(uri_ + ": colour stream cannot be started: " + OpenniError());
+  }
+  if (depth_.start() != STATUS_OK) {
+    throw NoSensor(uri_ + ": depth stream cannot be started: " + OpenniError());
+  }
+  if (has_color) match_.emplace(1'000'000 / std::max(1, depth_.getVideoMode().getFps()));
+}
+
+std::string OpenniSensor::description() const {
+  const openni::DeviceInfo& info = device_.getDeviceInfo();
+  const VideoMode mode = depth_.getVideoMode();
+  return std::string(info.getVendor()) + " " + info.getName() + " (" + info.getUri() + "), " +
+         std::to_string(mode.getResolutionX()) + "x" + std::to_string(mode.getResolutionY()) +
+         " px at " + std::to_string(mode.getFps()) + " Hz" + (lacks_.empty() ? "" : ", ") + lacks_;
+}
+
+void OpenniSensor::onDeviceDisconnected(const openni::DeviceInfo* info) {
+  if (uri_ == info->getUri()) is_connected_ = false;
+}
+
+std::optional<SensorFrame> OpenniSensor::Read(double timeout_s) {
+  VideoStream* streams[] = {&depth_, &color_};
+  const int num_streams = color_.isValid() ? 2 : 1;
+  while (!ready_) {
+    const bool waits_for_color = match_ && match_->is_waiting();
+    const int timeout_ms =
+        waits_for_color ? kColorWait_ms : static_cast<int>(std::ceil(1000 * timeout_s));
+    int index = 0;
+    if (openni::OpenNI::waitForAnyStream(streams, num_streams, &index, timeout_ms) != STATUS_OK) {
+      if (waits_for_color) ready_ = match_->TakeAnyhow();
+      break;
+    }
+    openni::VideoFrameRef frame;
+    if (streams[index]->readFrame(&frame) != STATUS_OK || !frame.isValid()) break;
+    index == 0 ? AddDepth(frame) : AddColor(frame);
+    if (!ready_ && match_) ready_ = match_->Take();
+  }
+  return std::exchange(ready_, std::nullopt);
+}
+
+void OpenniSensor::AddDepth(const openni::VideoFrameRef& frame) {
+  SensorFrame read;
+  read.device_us = static_cast<int64_t>(frame.getTimestamp());
+  read.index = frame.getFrameIndex();
+  read.depth = CopyDepth(frame, depth_.getMirroringEnabled());
+  read.depth.camera = CameraOf(frame);
+  ready_ = match_ ? match_->AddDepth(std::move(read)) : std::move(read);
+}
+
+void OpenniSensor::AddColor(const openni::VideoFrameRef& frame) {
+  match_->AddColor(static_cast<int64_t>(frame.getTimestamp()),
+                   CopyColor(frame, color_.getMirroringEnabled()));
+}
+
+// The principal point of a device that tells only its field of view is the middle of its image. An
+// image registered to colour is that of the colour camera.
+PinholeCamera OpenniSensor::CameraOf(const openni::VideoFrameRef& frame) const {
+  const VideoStream& stream = color_.isValid() ? color_ : depth_;
+  const int full_width = frame.getVideoMode().getResolutionX();
+  const int full_height = frame.getVideoMode().getResolutionY();
+  PinholeCamera camera{frame.getWidth(), frame.getHeight()};
+  camera.fx = 0.5 * full_width / std::tan(0.5 * stream.getHorizontalFieldOfView());
+  camera.fy = 0.5 * full_height / std::tan(0.5 * stream.getVerticalFieldOfView());
+  camera.cx = 0.5 * (full_width - 1);
+  camera.cy = 0.5 * (full_height - 1);
+  if (frame.getCroppingEnabled()) {
+    camera.cx -= frame.getCropOriginX();
+    camera.cy -= frame.getCropOriginY();
+  }
+  return camera;
+}
+
+}  // namespace declutter
