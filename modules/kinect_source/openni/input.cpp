@@ -83,10 +83,13 @@ Input OniInput(const KinectSourceConfig& config) {
   SensorRequest request = RequestOf(config);
   request.device = config.input();
   request.rate_hz = 0;  // at which it was recorded; rate_hz is that of playing it
-  const auto reader = std::make_shared<OniReader>(config, request);
-  Input input = RecordingInput(reader);
-  input.read = [session, read = std::move(input.read)] { return read(); };
-  return input;
+  try {
+    Input input = RecordingInput(std::make_shared<OniReader>(config, request));
+    input.read = [session, read = std::move(input.read)] { return read(); };
+    return input;
+  } catch (const NoSensor& error) {
+    throw std::invalid_argument(error.what());
+  }
 }
 
 }  // namespace

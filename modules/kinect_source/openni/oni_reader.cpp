@@ -28,7 +28,11 @@ OniReader::OniReader(const KinectSourceConfig& config, const SensorRequest& requ
 
 void OniReader::Rewind() {
   file_.reset();
-  file_ = std::make_unique<OpenniSensor>(request_.device, request_);
+  try {
+    file_ = std::make_unique<OpenniSensor>(request_.device, request_);
+  } catch (const NoSensor& error) {
+    throw NoSensor(std::string(error.what()) + " (cut short, or no .oni file?)");
+  }
   num_read_ = 0;
 }
 

@@ -15,7 +15,7 @@ std::string OpenniError() {
     line.erase(0, line.find_first_not_of(" \t"));
     if (!line.empty()) text += (text.empty() ? "" : "; ") + line;
   }
-  return text;
+  return text.empty() ? "OpenNI2 does not say why" : text;
 }
 
 std::string ModesText(const openni::SensorInfo& stream) {

@@ -1,0 +1,235 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "modules/runtime/config.h"
+#include "modules/synthetic_sensor/rendered_images.h"
+#include "tests/process/sensor_run.h"
+
+namespace declutter {
+namespace {
+
+using ::testing::HasSubstr;
+
+class SensorTest : public SensorRun {
+ protected:
+  static RenderedImages Rendered(const std::string& sensor_path) {
+    SyntheticSensor sensor;
+    runtime::ParseConfig(ReadFile(sensor_path), sensor_path, &sensor);
+    return RenderImages(sensor, sensor_path);
+  }
+};
+
+TEST_F(SensorTest, PublishesTheRenderedImagesBitForBit) {
+  const std::string sensor = WriteSensor("num_images: 3", "");
+  const Outcome outcome = Run(Live(sensor), "num_frames: 12 warm_up_frames: 0");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const SensorLog log = ReadLog();
+  const RenderedImages rendered = Rendered(sensor);
+  ASSERT_EQ(log.depth.size(), 12u);
+  std::set<size_t> seen;
+  for (const DepthFrame& frame : log.depth) {
+    const auto match =
+        std::find_if(rendered.depth.begin(), rendered.depth.end(),
+                     [&](const DepthImage& image) { return image.counts == frame.image.counts; });
+    ASSERT_NE(match, rendered.depth.end()) << frame.header.frame;
+    seen.insert(static_cast<size_t>(match - rendered.depth.begin()));
+    EXPECT_EQ(frame.image.depth_scale_m, 0.001);
+    EXPECT_NEAR(frame.image.camera.fx, match->camera.fx, 1e-4);
+    EXPECT_NEAR(frame.image.camera.fy, match->camera.fy, 1e-4);
+    EXPECT_EQ(frame.image.camera.cx, match->camera.cx);
+    EXPECT_EQ(frame.image.camera.cy, match->camera.cy);
+  }
+  EXPECT_EQ(seen.size(), 3u);
+}
+
+TEST_F(SensorTest, SendsColourOfTheSameTimeAsDepth) {
+  ASSERT_EQ(Run(Live(WriteSensor("")), "num_frames: 30").code, 0);
+  const SensorLog log = ReadLog();
+  std::set<int64_t> depth_utimes;
+  for (const DepthFrame& frame : log.depth) depth_utimes.insert(frame.header.utime);
+  for (const int64_t utime : log.color_utimes) EXPECT_EQ(depth_utimes.count(utime), 1u);
+  EXPECT_GE(log.color_utimes.size(), 25u);
+}
+
+TEST_F(SensorTest, SendsNoColourThatIsNotRegistered) {
+  const Outcome outcome = Run(Live(WriteSensor("can_register: false")), "num_frames: 5");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("cannot register depth to colour: no colour"));
+  const SensorLog log = ReadLog();
+  EXPECT_EQ(log.depth.size(), 5u);
+  EXPECT_TRUE(log.color_utimes.empty());
+}
+
+TEST_F(SensorTest, ReadsTheSizeAskedFor) {
+  const std::string sensor = WriteSensor("", "");
+  ASSERT_EQ(Run(Live(sensor), "num_frames: 2 width: 320 height: 240").code, 0);
+  const DepthImage half = ReadLog().depth.at(0).image, full = Rendered(sensor).depth.at(0);
+  EXPECT_EQ(half.camera.width, 320);
+  EXPECT_NEAR(half.camera.fx, full.camera.fx / 2, 1e-4);
+  for (int v = 0; v < 240; v += 7) {
+    for (int u = 0; u < 320; u += 7) EXPECT_EQ(half.CountAt(u, v), full.CountAt(2 * u, 2 * v));
+  }
+}
+
+// With room for a machine that is busy with other things.
+TEST_F(SensorTest, HoldsThirtyFramesASecond) {
+  const Outcome outcome = Run(Live(WriteSensor("", "")), "num_frames: 300");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const SensorLog log = ReadLog();
+  ASSERT_GE(log.depth.size(), 290u);  // what was lost on the way to the recorder
+  for (size_t i = 1; i < log.depth.size(); ++i) {
+    EXPECT_GT(log.depth[i].header.utime, log.depth[i - 1].header.utime);
+  }
+  const auto& last = log.statuses.back().content;
+  EXPECT_LE(last.num_skipped, 15);
+  const double duration_s =
+      1e-6 * static_cast<double>(log.depth.back().header.utime - log.depth.front().header.utime);
+  EXPECT_NEAR(duration_s, 299 / 30.0, 0.6);
+}
+
+TEST_F(SensorTest, SurvivesBeingUnpluggedAgainAndAgain) {
+  const std::string sensor =
+      WriteSensor("fault { kind: \"unplug\" begin: 30 num_periods: 45 } repeat_after: 75");
+  const Outcome outcome = Run(Live(sensor), "num_frames: 90 warm_up_frames: 0");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const SensorLog log = ReadLog();
+  ASSERT_GE(log.depth.size(), 85u);
+  int num_gaps = 0;
+  for (size_t i = 1; i < log.depth.size(); ++i) {
+    const int64_t gap_us = log.depth[i].header.utime - log.depth[i - 1].header.utime;
+    EXPECT_GT(gap_us, 0);
+    if (gap_us < 1'000'000) continue;
+    ++num_gaps;
+    const int64_t lost_us = log.depth_logged_us[i - 1];
+    const auto reported = std::find_if(
+        log.statuses.begin(), log.statuses.end(), [lost_us](const SensorLog::Status& status) {
+          return status.logged_us > lost_us &&
+                 status.content.message.find("no sensor") != std::string::npos;
+        });
+    ASSERT_NE(reported, log.statuses.end());
+    EXPECT_LT(reported->logged_us - lost_us, 2'000'000);
+  }
+  EXPECT_GE(num_gaps, 3);
+  EXPECT_EQ(log.statuses.back().content.message, "");
+}
+
+TEST_F(SensorTest, OpensASensorAgainThatStalls) {
+  const std::string sensor = WriteSensor("fault { kind: \"stall\" begin: 20 num_periods: 60 }");
+  const Outcome outcome = Run(Live(sensor), "num_frames: 40");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no sensor: it sends no frames"));
+  EXPECT_THAT(outcome.err, HasSubstr("all is well again"));
+  EXPECT_GE(ReadLog().depth.size(), 35u);
+}
+
+TEST_F(SensorTest, LeavesOutDamagedFramesAndCountsLostOnes) {
+  const std::string sensor = WriteSensor(
+      "fault { kind: \"corrupt\" begin: 15 num_periods: 4 }"
+      "fault { kind: \"drop\" begin: 25 num_periods: 3 }");
+  const Outcome outcome = Run(Live(sensor), "num_frames: 40");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("byte are no image of 320x240 px"));
+  const SensorLog log = ReadLog();
+  EXPECT_GE(log.statuses.back().content.num_rejected, 1);
+  EXPECT_GE(log.statuses.back().content.num_skipped, 3);
+  const std::vector<uint16_t> rendered = Rendered(sensor).depth.at(0).counts;
+  for (const DepthFrame& frame : log.depth) EXPECT_EQ(frame.image.counts, rendered);
+}
+
+TEST_F(SensorTest, TimeGoesOnWhateverTheTimestamps) {
+  const std::string sensor = WriteSensor(
+      "fault { kind: \"wrong_time\" begin: 15 num_periods: 10 time_shift_s: -5 }"
+      "fault { kind: \"wrong_time\" begin: 30 num_periods: 10 time_shift_s: 3600 }");
+  const Outcome outcome = Run(Live(sensor), "num_frames: 50");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const SensorLog log = ReadLog();
+  for (size_t i = 1; i < log.depth.size(); ++i) {
+    EXPECT_GT(log.depth[i].header.utime, log.depth[i - 1].header.utime);
+    EXPECT_LT(std::abs(log.depth[i].header.utime - log.depth_logged_us[i]), 2'000'000);
+  }
+}
+
+TEST_F(SensorTest, SaysThatTheSensorMeasuresNothing) {
+  const std::string sensor = WriteSensor("fault { kind: \"zero\" begin: 10 num_periods: 60 }");
+  const Outcome outcome = Run(Live(sensor), "num_frames: 80");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("the sensor measures nothing"));
+  EXPECT_THAT(outcome.err, HasSubstr("all is well again"));
+}
+
+TEST_F(SensorTest, RefusesAModeThatTheSensorLacks) {
+  const Outcome outcome = Run(Live(WriteSensor("", "")), "width: 1280 height: 1024");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("no depth with 1280x1024 px; supported: 640x480 at 30 Hz, "
+                                     "320x240 at 30 Hz"));
+  const Outcome rate = Run(Live(WriteSensor("")), "rate_hz: 60");
+  EXPECT_EQ(rate.code, 2);
+  EXPECT_THAT(rate.err, HasSubstr("no depth with 60 Hz; supported: 320x240 at 30 Hz"));
+}
+
+TEST_F(SensorTest, SaysWhatIsWrongWithTheSensorsFile) {
+  const std::string sensor =
+      folder_.Write("bad.textproto", "scene: \"a\"\nfault { kind: \"burn\" }");
+  const Outcome outcome = Run(Live(sensor), "");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("bad.textproto:2:9: fault.kind"));
+}
+
+TEST_F(SensorTest, ASensorIsForOneProgramAtATime) {
+  const std::string sensor = WriteSensor("");
+  const std::string program = std::filesystem::path(LAUNCHER).parent_path() / "kinect_source";
+  TemporaryFolder other;
+  setenv("LCM_DEFAULT_URL", "udpm://239.255.76.67:7872?ttl=0", 1);
+  const Launched first({program, "--set", "input=" + Live(sensor)}, other);
+  ASSERT_TRUE(Eventually([&other] {
+    return ReadFile(other.Path("stderr")).find("synthetic sensor") != std::string::npos;
+  }));
+  const Outcome second = Launched({program, "--set", "input=" + Live(sensor)}, folder_).Wait();
+  unsetenv("LCM_DEFAULT_URL");
+  EXPECT_EQ(second.code, 1);
+  EXPECT_THAT(second.err, HasSubstr("in use by another program"));
+}
+
+// Sensors that OpenNI2 lists by itself.
+class ListedSensorTest : public SensorTest {
+ protected:
+  void SetUp() override {
+    setenv("DECLUTTER_SYNTHETIC_SENSOR", WriteSensor("serial: \"S42\"").c_str(), 1);
+  }
+  void TearDown() override { unsetenv("DECLUTTER_SYNTHETIC_SENSOR"); }
+};
+
+TEST_F(ListedSensorTest, IsOpenedAsAnySensor) {
+  const Outcome outcome = Run("live", "num_frames: 3");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(ReadLog().depth.size(), 3u);
+}
+
+TEST_F(ListedSensorTest, IsOpenedByItsSerialNumber) {
+  EXPECT_EQ(Run("live:serial=S42", "num_frames: 3").code, 0);
+  const Outcome other = Run("live:serial=S43", "");
+  EXPECT_EQ(other.code, 1);
+  EXPECT_THAT(other.err, HasSubstr("no sensor with serial number S43; connected: synthetic:"));
+  EXPECT_THAT(other.err, HasSubstr("(serial S42)"));
+}
+
+TEST_F(ListedSensorTest, IsListed) {
+  const std::string program = std::filesystem::path(LAUNCHER).parent_path() / "list_sensors";
+  const Outcome outcome = Launched({program}, folder_).Wait();
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("driver libOniFile.so.0\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("declutter synthetic sensor, serial S42\n"));
+}
+
+TEST_F(SensorTest, SaysThatThereIsNoSensor) {
+  const Outcome outcome = Run("live", "");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("no sensor can be opened; connected: none"));
+}
+
+}  // namespace
+}  // namespace declutter
