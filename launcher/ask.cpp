@@ -105,15 +105,16 @@ int Swap(const CommandLine& line) {
       is_path ? std::optional<std::string>(fs::absolute(line.program)) : FindProgram(line.program);
   if (!program) throw runtime::ConfigError("no program '" + line.program + "'");
   std::vector<Fault> faults;
-  const auto graph =
-      LoadGraph(folder + "/graph.textproto", line.assignments, {{line.module, *program}}, &faults);
+  ProgramCatalog catalog;
+  const auto graph = LoadGraph(folder + "/graph.textproto", line.assignments,
+                               {{line.module, *program}}, &catalog, &faults);
   Print(faults);
   if (!graph) return 2;
   ControlRequest request;
   request.set_verb("swap");
   request.set_module(line.module);
   request.set_program(*program);
-  request.set_graph_text(graph->text);
+  request.set_graph_text(graph->Text());
   for (const ResolvedModule& resolved : graph->modules) {
     if (resolved.module.name() != line.module) continue;
     request.set_config_text(resolved.config_text);

@@ -1,12 +1,15 @@
 #include "launcher/child_process.h"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 #include <utility>
@@ -24,9 +27,55 @@ std::pair<int, int> OpenPipe() {
   return {ends[0], ends[1]};
 }
 
-// Between fork and exec: only calls that are safe in a child of a process with threads.
-[[noreturn]] void Become(char* const argv[], pid_t parent, int stdin_fd, int stdout_fd,
-                         int stderr_fd, int fault_fd) {
+// Our environment with these variables on top.
+std::vector<std::string> EnvironmentWith(const std::vector<std::string>& variables) {
+  std::vector<std::string> environment = variables;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    const std::string name = text.substr(0, text.find('=') + 1);
+    const bool is_replaced =
+        std::any_of(variables.begin(), variables.end(),
+                    [&](const std::string& variable) { return variable.rfind(name, 0) == 0; });
+    if (!is_replaced) environment.push_back(text);
+  }
+  return environment;
+}
+
+std::vector<char*> Pointers(const std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+// The rest is called between fork and exec: only calls that are safe in a child of a process with
+// threads.
+
+void Note(const char* text) {
+  if (write(STDERR_FILENO, text, strlen(text)) < 0) return;  // nobody to tell
+}
+
+void Limit(const LaunchPlan& plan) {
+  if (plan.nice != 0 && setpriority(PRIO_PROCESS, 0, plan.nice) != 0) {
+    Note("launcher: the priority that the graph asks for needs root\n");
+  }
+  if (!plan.cpus.empty()) {
+    cpu_set_t cpus;
+    CPU_ZERO(&cpus);
+    for (const int cpu : plan.cpus) CPU_SET(static_cast<size_t>(cpu), &cpus);
+    if (sched_setaffinity(0, sizeof(cpus), &cpus) != 0) {
+      Note("launcher: the cores that the graph asks for are not to be had\n");
+    }
+  }
+  rlimit limit = {};
+  const auto max_bytes = static_cast<rlim_t>(plan.max_memory_bytes);
+  if (max_bytes == 0 || getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_max < max_bytes) return;
+  limit.rlim_cur = limit.rlim_max = max_bytes;
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+[[noreturn]] void Become(char* const argv[], char* const env[], const LaunchPlan& plan,
+                         pid_t parent, const int streams[3], int fault_fd) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // The parent may have died before the line above: then nobody would end us.
   if (getppid() != parent) _exit(kExecFailed);
@@ -35,10 +84,9 @@ std::pair<int, int> OpenPipe() {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   signal(SIGPIPE, SIG_DFL);
-  dup2(stdin_fd, STDIN_FILENO);
-  dup2(stdout_fd, STDOUT_FILENO);
-  dup2(stderr_fd, STDERR_FILENO);
-  execv(argv[0], argv);
+  for (int fd = 0; fd < 3; ++fd) dup2(streams[fd], fd);
+  Limit(plan);
+  execve(argv[0], argv, env);
   const int fault = errno;
   if (write(fault_fd, &fault, sizeof(fault)) < 0) _exit(kExecFailed);
   _exit(kExecFailed);
@@ -56,19 +104,18 @@ int ExecFault(int fd) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& log_path)
-    : log_(log_path, kMaxLog) {
-  std::vector<char*> argv;
-  for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
+ChildProcess::ChildProcess(const LaunchPlan& plan) : log_(plan.log_path, kMaxLog) {
+  const std::vector<char*> argv = Pointers(plan.command);
+  const std::vector<std::string> environment = EnvironmentWith(plan.env);
+  const std::vector<char*> env = Pointers(environment);
   const auto [stdin_read_end, stdin_write_end] = OpenPipe();
   stdin_fd_ = stdin_write_end;
   const auto [fault_read_end, fault_write_end] = OpenPipe();
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ == 0) {
-    Become(argv.data(), parent, stdin_read_end, stdout_.child_end(), stderr_.child_end(),
-           fault_write_end);
+    const int streams[] = {stdin_read_end, stdout_.child_end(), stderr_.child_end()};
+    Become(argv.data(), env.data(), plan, parent, streams, fault_write_end);
   }
   close(stdin_read_end);
   close(fault_write_end);
@@ -79,7 +126,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::s
   if (fault == 0) return;
   if (pid_ > 0) waitpid(pid_, nullptr, 0);
   CloseStdin();
-  throw std::runtime_error(command[0] + ": " + strerror(fault));
+  throw std::runtime_error(plan.command[0] + ": " + strerror(fault));
 }
 
 ChildProcess::~ChildProcess() {

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,13 +19,23 @@ struct Ending {
   std::string how;  // for people: "exit code 1", "signal 11 (Segmentation fault)"
 };
 
+// How a program is started.
+struct LaunchPlan {
+  std::vector<std::string> command;  // the program's path, its arguments
+  std::string log_path;              // appended to
+  std::vector<std::string> env;      // NAME=VALUE, on top of ours
+  std::vector<int> cpus;             // that it may run on; empty: all
+  int nice = 0;
+  int64_t max_memory_bytes = 0;  // of address space; 0: as ours
+};
+
 // A child in a process group of its own that dies with the thread that started it, however that
 // ends. What it prints goes to a log, stderr to ours as well; its stdin is what is sent to it.
 class ChildProcess {
  public:
-  // Starts command[0], a path, with the arguments command[1...], appending to log_path. Throws
-  // std::runtime_error when the program or the log cannot be opened. Call from the main thread.
-  ChildProcess(const std::vector<std::string>& command, const std::string& log_path);
+  // Throws std::runtime_error when the program or the log cannot be opened. Call from the main
+  // thread.
+  explicit ChildProcess(const LaunchPlan& plan);
   ~ChildProcess();  // kills what is left of its group
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;

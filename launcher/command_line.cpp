@@ -18,6 +18,8 @@ constexpr const char* kHelp = R"(launcher: runs a graph of modules
   launcher run GRAPH [OPTION]...
       Runs it until its sources have ended or a signal comes (a second one kills).
       --set MODULE.FIELD=VALUE   one parameter; strings without quotes
+      --only A,B                 these modules and groups; what they need comes from elsewhere
+      --without A,B              all but these
       --record LOG               write all messages to a new LCM log
       --replay LOG               take the messages of the sources from a log, skipping no frame
       --from MODULE              with --replay: run only MODULE and what is downstream of it
@@ -89,6 +91,8 @@ const std::vector<Option>& Options() {
       {"--set",
        {Verb::kCheck, Verb::kRun, Verb::kSwap},
        [](const std::string& value, CommandLine* line) { line->assignments.push_back(value); }},
+      Once("--only", run, &CommandLine::only),
+      Once("--without", run, &CommandLine::without),
       Once("--record", run, &CommandLine::record),
       Once("--replay", run, &CommandLine::replay),
       Once("--from", run, &CommandLine::from),

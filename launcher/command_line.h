@@ -16,6 +16,8 @@ struct CommandLine {
   std::string module;                    // of the running graph
   std::string program;                   // to swap in
   std::vector<std::string> assignments;  // of --set, in order
+  std::string only;                      // modules and groups; empty: all
+  std::string without;                   // modules and groups; empty: none
   std::string record;                    // log to write; empty: none
   std::string replay;                    // log to read in place of the sources; empty: none
   std::string from;                      // first module of a replay; empty: not given

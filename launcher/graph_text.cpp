@@ -3,6 +3,8 @@
 #include <google/protobuf/empty.pb.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
+#include <filesystem>
+#include <sstream>
 #include <utility>
 
 #include "modules/runtime/parameter_check.h"
@@ -35,7 +37,25 @@ const Descriptor* FindType(const std::string& full_name, const ProgramCatalog* c
 GraphText::GraphText(std::string text, std::string file)
     : text_(std::move(text)), file_(std::move(file)) {}
 
+std::string GraphText::PathFromHere(const std::string& path) const {
+  return std::filesystem::absolute(file_).parent_path() / path;
+}
+
+std::string GraphText::WhereInclude(int index) const {
+  const auto location =
+      locations_->GetLocation(Graph::descriptor()->FindFieldByName("include"), index);
+  return Where(location.line + 1, location.column + 1);
+}
+
 bool GraphText::ReadModules(std::vector<Fault>* faults) {
+  std::istringstream lines(text_);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const auto size = static_cast<int>(line.size());
+    if (google::protobuf::internal::IsStructurallyValidUTF8(line.data(), size)) continue;
+    faults->push_back({Where(number, 1), "not UTF-8 text"});
+    return false;
+  }
   return Read(AnyIsEmpty(), true, nullptr, faults);
 }
 
@@ -58,7 +78,13 @@ bool GraphText::Read(const TextFormat::Finder& finder, bool skips_unknown,
   parser.RecordErrorsTo(&collector);
   parser.WriteLocationsTo(locations_.get());
   google::protobuf::io::ArrayInputStream stream(text_.data(), static_cast<int>(text_.size()));
-  if (parser.Parse(&stream, &graph_)) return true;
+  const bool is_parsed = parser.Parse(&stream, &graph_);
+  // What is unknown inside an Any is to be skipped, and nothing else.
+  const std::string in_any = "\"" + google::protobuf::Empty::descriptor()->full_name() + "\"";
+  for (const ConfigFault& warning : collector.warnings) {
+    if (warning.text.find(in_any) == std::string::npos) collector.faults.push_back(warning);
+  }
+  if (is_parsed && collector.faults.empty()) return true;
   if (collector.faults.empty()) collector.faults.push_back({1, 1, "cannot be parsed"});
   for (ConfigFault& fault : collector.faults) {
     runtime::ExplainUnknownField(
@@ -75,7 +101,12 @@ std::string GraphText::Where(int line, int column) const {
 std::string GraphText::Where(int module, const std::string& field) const {
   TextFormat::ParseLocation location;
   if (const auto* tree = Locations(module)) {
-    location = tree->GetLocation(Module::descriptor()->FindFieldByName(field), -1);
+    const auto* descriptor = Module::descriptor()->FindFieldByName(field);
+    const auto* fields = graph_.module(module).GetReflection();
+    const bool is_list = descriptor != nullptr && descriptor->is_repeated();
+    if (!is_list || fields->FieldSize(graph_.module(module), descriptor) > 0) {
+      location = tree->GetLocation(descriptor, is_list ? 0 : -1);
+    }
   }
   if (location.line < 0) {
     location = locations_->GetLocation(Graph::descriptor()->FindFieldByName("module"), module);

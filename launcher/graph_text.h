@@ -14,8 +14,10 @@ namespace declutter::launcher {
 // A graph as it is written in a file.
 class GraphText {
  public:
-  // file is the name for people.
+  // file is the name for people; paths in it begin in its folder.
   GraphText(std::string text, std::string file);
+
+  std::string PathFromHere(const std::string& path) const;
 
   // Reads the graph without the modules' parameters, whose types are not known yet. Faults of the
   // syntax are added to faults; false when there are any.
@@ -30,6 +32,8 @@ class GraphText {
   // "file:line:column" of a module's field, or of the module where it has no such field. After
   // ReadAll or ReadModules.
   std::string Where(int module, const std::string& field) const;
+
+  std::string WhereInclude(int index) const;
 
   // Checks a module's parameters, unpacked, against their options.
   void CheckConfig(int module, const google::protobuf::Message& config,

@@ -13,6 +13,7 @@
 #include "launcher/load_graph.h"
 #include "launcher/plan_replay.h"
 #include "launcher/run.h"
+#include "launcher/selection.h"
 
 namespace declutter::launcher {
 namespace {
@@ -25,6 +26,7 @@ int Run(const CommandLine& line, ResolvedGraph graph) {
   RunOptions options{line.url, line.record, line.logs};
   if (options.url.empty() && environment_url != nullptr) options.url = environment_url;
   if (options.logs.empty()) options.logs = OwnFolder() + "/../../logs";
+  Select(line.only, line.without, &graph);
   if (!line.replay.empty()) options.replay = PlanReplay(line.replay, line.from, &graph);
   bool is_complete = true;
   for (const ResolvedModule& module : graph.modules) {
@@ -40,11 +42,12 @@ int CheckOrRun(const CommandLine& line) {
     throw runtime::ConfigError("--record " + line.record + ": exists already");
   }
   std::vector<Fault> faults;
-  const auto graph = LoadGraph(line.graph, line.assignments, {}, &faults);
+  ProgramCatalog catalog;
+  const auto graph = LoadGraph(line.graph, line.assignments, {}, &catalog, &faults);
   Print(faults);
   if (!graph) return kBadConfig;
   if (line.verb == CommandLine::Verb::kRun) return Run(line, *graph);
-  std::cout << graph->text;
+  std::cout << graph->Text();
   return std::cout.flush() ? 0 : kFailure;
 }
 

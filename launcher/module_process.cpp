@@ -1,7 +1,5 @@
 #include "launcher/module_process.h"
 
-#include <signal.h>
-
 #include <limits>
 #include <utility>
 
@@ -14,9 +12,8 @@ constexpr double kLastStatusLimit_s = 0.3;
 
 }  // namespace
 
-ModuleProcess::ModuleProcess(std::string name, std::vector<std::string> command,
-                             std::string log_path)
-    : Program(std::move(command), std::move(log_path)), name_(std::move(name)) {}
+ModuleProcess::ModuleProcess(std::string name, LaunchPlan plan, int stop_signal)
+    : Program(std::move(plan)), name_(std::move(name)), stop_signal_(stop_signal) {}
 
 void ModuleProcess::Start() {
   Forget();
@@ -43,7 +40,7 @@ void ModuleProcess::Release(std::optional<int64_t> last_utime) {
 
 void ModuleProcess::Terminate() {
   is_ending_ = true;
-  Signal(SIGTERM);
+  Signal(stop_signal_);
 }
 
 void ModuleProcess::OnTurn(double now_s) {
@@ -77,7 +74,7 @@ std::optional<module_status_t> ModuleProcess::TakeStatus() {
 
 Ending ModuleProcess::Judge(const Ending& ending) const {
   // Until it is ready it may not have its signals in hand yet: then this is how it obeys.
-  const bool obeyed = is_ending_ && !is_ready_ && ending.signal == SIGTERM;
+  const bool obeyed = is_ending_ && !is_ready_ && ending.signal == stop_signal_;
   return obeyed ? Ending{} : ending;
 }
 

@@ -11,8 +11,8 @@ namespace declutter::launcher {
 // has been heard, or a moment later.
 class ModuleProcess : public Program {
  public:
-  // command as for ChildProcess; name as in the graph.
-  ModuleProcess(std::string name, std::vector<std::string> command, std::string log_path);
+  // name: as in the graph; stop_signal: the request to end.
+  ModuleProcess(std::string name, LaunchPlan plan, int stop_signal);
 
   // Starts it to keep what arrives and to handle nothing until Release.
   void StartHeld();
@@ -34,6 +34,7 @@ class ModuleProcess : public Program {
 
  private:
   std::string name_;
+  int stop_signal_;
   void Forget();
 
   std::optional<module_status_t> status_;  // not taken yet

@@ -6,16 +6,13 @@
 
 namespace declutter::launcher {
 
-Program::Program(std::vector<std::string> command, std::string log_path)
-    : command_(std::move(command)), log_path_(std::move(log_path)) {}
-
 void Program::Start() { Launch({}, false); }
 
 void Program::Launch(const std::vector<std::string>& arguments, bool keeps_stdin) {
-  std::vector<std::string> command = command_;
-  command.insert(command.end(), arguments.begin(), arguments.end());
+  LaunchPlan plan = plan_;
+  plan.command.insert(plan.command.end(), arguments.begin(), arguments.end());
   is_ready_ = is_ending_ = false;
-  child_ = std::make_unique<ChildProcess>(command, log_path_);
+  child_ = std::make_unique<ChildProcess>(plan);
   if (!keeps_stdin) child_->Send("");
 }
 

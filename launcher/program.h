@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "launcher/process.h"
@@ -11,8 +12,7 @@ namespace declutter::launcher {
 // A Process that is a program of its own. What it prints is logged.
 class Program : public Process {
  public:
-  // command as for ChildProcess.
-  Program(std::vector<std::string> command, std::string log_path);
+  explicit Program(LaunchPlan plan) : plan_(std::move(plan)) {}
 
   void Start() override;
   void Kill() override;
@@ -36,8 +36,7 @@ class Program : public Process {
   bool is_ending_ = false;  // it was asked to end
 
  private:
-  std::vector<std::string> command_;
-  std::string log_path_;
+  LaunchPlan plan_;
   std::unique_ptr<ChildProcess> child_;
 };
 

@@ -44,9 +44,8 @@ int64_t WallClock_us() {
 
 }  // namespace
 
-Recorder::Recorder(std::vector<std::string> command, std::string log, std::string stderr_path,
-                   Wire* wire)
-    : Program(std::move(command), std::move(stderr_path)), log_(std::move(log)), wire_(wire) {}
+Recorder::Recorder(LaunchPlan plan, std::string log, Wire* wire)
+    : Program(std::move(plan)), log_(std::move(log)), wire_(wire) {}
 
 void Recorder::Start() {
   Program::Start();

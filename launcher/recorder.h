@@ -13,8 +13,8 @@ namespace declutter::launcher {
 // between them there must be as many messages as we have heard.
 class Recorder : public Program {
  public:
-  // command: lcm-logger with its arguments, writing log. wire is kept.
-  Recorder(std::vector<std::string> command, std::string log, std::string stderr_path, Wire* wire);
+  // plan: of lcm-logger, writing log. wire is kept.
+  Recorder(LaunchPlan plan, std::string log, Wire* wire);
 
   void Start() override;
   void Terminate() override;

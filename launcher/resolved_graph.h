@@ -12,6 +12,7 @@ namespace declutter::launcher {
 // A module of a graph that was checked, ready to start.
 struct ResolvedModule {
   Module module;            // program an absolute path
+  std::string text;         // its block of a graph file
   std::string config_text;  // its parameters as protobuf text, all layers merged
   WiredModule wiring;
   std::vector<Fault> missing;  // parameters that a run needs and nothing sets
@@ -21,7 +22,13 @@ struct ResolvedModule {
 struct ResolvedGraph {
   bool lossless = false;
   std::vector<ResolvedModule> modules;
-  std::string text;  // the whole as a graph file
+
+  // The whole as a graph file.
+  std::string Text() const {
+    std::string text = lossless ? "lossless: true\n" : "lossless: false\n";
+    for (const ResolvedModule& module : modules) text += module.text;
+    return text;
+  }
 };
 
 }  // namespace declutter::launcher

@@ -1,5 +1,7 @@
 #include "launcher/run.h"
 
+#include <signal.h>
+
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -21,16 +23,28 @@ namespace {
 constexpr const char* kLogger = "lcm-logger";
 constexpr const char* kFeeder = "log-feeder";
 
-std::vector<std::string> ModuleCommand(const Module& module, const std::string& config_path,
-                                       bool lossless) {
-  std::vector<std::string> command = {module.program(), "--name", module.name(), "--config",
-                                      config_path};
+int SignalOf(const std::string& name) {
+  static const std::map<std::string, int> signals = {
+      {"SIGTERM", SIGTERM}, {"SIGINT", SIGINT}, {"SIGQUIT", SIGQUIT}, {"SIGUSR1", SIGUSR1}};
+  return signals.at(name);
+}
+
+std::unique_ptr<ModuleProcess> MakeModule(const Module& module, const std::string& config_path,
+                                          bool lossless, const RunFolder& folder) {
+  LaunchPlan plan;
+  plan.command = {module.program(), "--name", module.name(), "--config", config_path};
   for (const Remap& remap : module.remap()) {
-    command.insert(command.end(), {"--remap", remap.from() + "=" + remap.to()});
+    plan.command.insert(plan.command.end(), {"--remap", remap.from() + "=" + remap.to()});
   }
-  if (lossless) command.push_back("--lossless");
-  command.insert(command.end(), module.arg().begin(), module.arg().end());
-  return command;
+  if (lossless) plan.command.push_back("--lossless");
+  plan.command.insert(plan.command.end(), module.arg().begin(), module.arg().end());
+  plan.log_path = folder.LogPath(module.name());
+  plan.env = {module.env().begin(), module.env().end()};
+  plan.cpus = {module.cpu().begin(), module.cpu().end()};
+  plan.nice = module.nice();
+  plan.max_memory_bytes = int64_t{module.memory_limit_mb()} << 20;
+  return std::make_unique<ModuleProcess>(module.name(), std::move(plan),
+                                         SignalOf(module.stop_signal()));
 }
 
 Node PlanNode(const Module& module) {
@@ -62,10 +76,11 @@ std::unique_ptr<Process> MakeRecorder(const RunOptions& options, const RunFolder
                                       Wire* wire) {
   const auto logger = FindProgram(kLogger);
   if (!logger) throw std::runtime_error(std::string(kLogger) + " is not installed");
+  LaunchPlan plan;
   // Of its flags only the long ones with = are read as documented.
-  const std::vector<std::string> command = {*logger, "--quiet", "--lcm-url=" + options.url,
-                                            options.record};
-  return std::make_unique<Recorder>(command, options.record, folder.LogPath(kLogger), wire);
+  plan.command = {*logger, "--quiet", "--lcm-url=" + options.url, options.record};
+  plan.log_path = folder.LogPath(kLogger);
+  return std::make_unique<Recorder>(std::move(plan), options.record, wire);
 }
 
 class ModuleMaker : public SuccessorMaker {
@@ -81,9 +96,7 @@ class ModuleMaker : public SuccessorMaker {
       graph_texts_[module.name()] = request.graph_text();
       const std::string config = folder_.WriteConfig(
           module.name() + ".swap" + std::to_string(++num_made_), request.config_text());
-      return std::make_unique<ModuleProcess>(module.name(),
-                                             ModuleCommand(module, config, graph_.lossless),
-                                             folder_.LogPath(module.name()));
+      return MakeModule(module, config, graph_.lossless, folder_);
     }
     return nullptr;
   }
@@ -136,9 +149,7 @@ int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
   ProcessMap processes;
   for (const ResolvedModule& resolved : graph.modules) {
     const std::string& name = resolved.module.name();
-    processes[name] = std::make_unique<ModuleProcess>(
-        name, ModuleCommand(resolved.module, folder.ConfigPath(name), graph.lossless),
-        folder.LogPath(name));
+    processes[name] = MakeModule(resolved.module, folder.ConfigPath(name), graph.lossless, folder);
   }
   if (!options.record.empty()) processes[kLogger] = MakeRecorder(options, folder, &wire);
   if (options.replay) processes[kFeeder] = std::make_unique<LogFeeder>(*options.replay, &wire);

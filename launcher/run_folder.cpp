@@ -44,7 +44,7 @@ RunFolder::RunFolder(const std::string& logs, const ResolvedGraph& graph) {
     throw std::runtime_error(path_ + ": " + error.message() +
                              "; --log_dir names another folder for logs");
   }
-  WriteGraph(graph.text);
+  WriteGraph(graph.Text());
   for (const ResolvedModule& module : graph.modules) {
     WriteConfig(module.module.name(), module.config_text);
   }

@@ -20,7 +20,13 @@ class FaultCollector : public google::protobuf::io::ErrorCollector {
     faults.push_back({line + 1, column + 1, text});
   }
 
+  void AddWarning(int line, google::protobuf::io::ColumnNumber column,
+                  const std::string& text) override {
+    warnings.push_back({line + 1, column + 1, text});
+  }
+
   std::vector<ConfigFault> faults;
+  std::vector<ConfigFault> warnings;  // what was skipped because it was allowed to be unknown
 };
 
 // The parser's own message, `Message type "T" has no field named "f".`, does not say which field
