@@ -13,8 +13,8 @@ using Verb = CommandLine::Verb;
 
 constexpr const char* kHelp = R"(launcher: runs a graph of modules
 
-  launcher check GRAPH [--set MODULE.FIELD=VALUE]...
-      Checks a graph with all its parameters and channels; prints it resolved.
+  launcher check GRAPH [--set MODULE.FIELD=VALUE]... [--dot]
+      Checks a graph with all its parameters and channels; prints it resolved, or for Graphviz.
   launcher run GRAPH [OPTION]...
       Runs it until its sources have ended or a signal comes (a second one kills).
       --set MODULE.FIELD=VALUE   one parameter; strings without quotes
@@ -24,6 +24,7 @@ constexpr const char* kHelp = R"(launcher: runs a graph of modules
       --replay LOG               take the messages of the sources from a log, skipping no frame
       --from MODULE              with --replay: run only MODULE and what is downstream of it
       --url URL                  LCM network (else LCM_DEFAULT_URL, else one of its own)
+      --isolate                  in a network of its own, which nobody else can reach
       --log_dir DIR              where the folder of this run is made (else logs of the project)
 
   Of the graph that was started last, or of the one with the run folder --run DIR:
@@ -97,8 +98,14 @@ const std::vector<Option>& Options() {
       Once("--replay", run, &CommandLine::replay),
       Once("--from", run, &CommandLine::from),
       Once("--url", run, &CommandLine::url),
+      {"--isolate", run, [](const std::string&, CommandLine* line) { line->is_isolated = true; },
+       false},
       Once("--log_dir", run, &CommandLine::logs),
       Once("--run", asking, &CommandLine::run_folder),
+      {"--dot",
+       {Verb::kCheck},
+       [](const std::string&, CommandLine* line) { line->draws = true; },
+       false},
       {"--watch", {Verb::kStatus}, follow, false},
       {"--follow", {Verb::kLogs}, follow, false},
       {"-f", {Verb::kLogs}, follow, false},

@@ -24,7 +24,9 @@ struct CommandLine {
   std::string url;                       // empty: not given
   std::string logs;                      // folder; empty: not given
   std::string run_folder;                // of the running graph; empty: not given
-  bool follows = false;                  // prints what is new until a signal comes
+  bool draws = false;                    // the graph for Graphviz
+  bool is_isolated = false;
+  bool follows = false;  // prints what is new until a signal comes
 };
 
 // arguments: without the program's name. Throws runtime::ConfigError.

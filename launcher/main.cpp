@@ -9,6 +9,7 @@
 
 #include "launcher/ask.h"
 #include "launcher/command_line.h"
+#include "launcher/dot.h"
 #include "launcher/find_program.h"
 #include "launcher/load_graph.h"
 #include "launcher/plan_replay.h"
@@ -24,6 +25,7 @@ constexpr int kBadConfig = 2;
 int Run(const CommandLine& line, ResolvedGraph graph) {
   const char* environment_url = std::getenv("LCM_DEFAULT_URL");
   RunOptions options{line.url, line.record, line.logs};
+  options.is_isolated = line.is_isolated;
   if (options.url.empty() && environment_url != nullptr) options.url = environment_url;
   if (options.logs.empty()) options.logs = OwnFolder() + "/../../logs";
   Select(line.only, line.without, &graph);
@@ -47,7 +49,9 @@ int CheckOrRun(const CommandLine& line) {
   Print(faults);
   if (!graph) return kBadConfig;
   if (line.verb == CommandLine::Verb::kRun) return Run(line, *graph);
-  std::cout << graph->Text();
+  std::vector<WiredModule> wiring;
+  for (const ResolvedModule& module : graph->modules) wiring.push_back(module.wiring);
+  std::cout << (line.draws ? Dot(wiring) : graph->Text());
   return std::cout.flush() ? 0 : kFailure;
 }
 

@@ -143,11 +143,15 @@ std::string ChooseUrl() {
          "?ttl=0&recv_buf_size=" + std::to_string(std::min(max_buffer, kMaxReceiveBuffer));
 }
 
+void Isolate() {
+  Unshare();
+  BringLoopbackUp();
+}
+
 void EnsureMulticast(const std::string& url) {
   if (CarriesMessages(url)) return;
   try {
-    Unshare();
-    BringLoopbackUp();
+    Isolate();
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(url +
                              " carries no messages of 150 KB here, and a network of our own " +

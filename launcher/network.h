@@ -14,4 +14,7 @@ std::string ChooseUrl();
 // later inherits it. Needs a process of one thread. Throws std::runtime_error with what was tried.
 void EnsureMulticast(const std::string& url);
 
+// Moves this process into a network of its own in any case. As above.
+void Isolate();
+
 }  // namespace declutter::launcher

@@ -14,6 +14,7 @@
 #include "launcher/recorder.h"
 #include "launcher/run_folder.h"
 #include "launcher/session.h"
+#include "launcher/url_claim.h"
 #include "launcher/wire.h"
 
 namespace declutter::launcher {
@@ -139,7 +140,9 @@ std::vector<Node> PlanNodes(const ResolvedGraph& graph, const RunOptions& option
 int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
   RunOptions options = requested;
   if (options.url.empty()) options.url = ChooseUrl();
+  if (options.is_isolated) Isolate();
   EnsureMulticast(options.url);
+  const UrlClaim claim(options.url);
   setenv("LCM_DEFAULT_URL", options.url.c_str(), 1);
   const RunFolder folder(options.logs, graph);
   HoldSignals();

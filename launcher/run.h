@@ -15,6 +15,7 @@ struct RunOptions {
   std::string record;  // log to write; empty: none
   std::string logs;    // folder of the runs' folders
   std::optional<ReplayPlan> replay = {};
+  bool is_isolated = false;  // in a network of its own
 };
 
 // The processes of a run: the modules, a recorder downstream of all of them, a log in place of

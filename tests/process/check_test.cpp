@@ -35,6 +35,17 @@ TEST_F(CheckTest, PrintsTheGraphWithAllItsLayersResolved) {
   EXPECT_EQ(again.out, outcome.out);
 }
 
+TEST_F(CheckTest, DrawsTheGraph) {
+  EXPECT_EQ(Check(FakeGraph(folder_, "", ""), {"--dot"}).out, R"(digraph graph_of_modules {
+  node [shape=box]
+  source
+  filter
+  filter -> source [label="OBJECTS" style=dashed]
+  source -> filter [label="DEPTH_FRAME"]
+}
+)");
+}
+
 TEST_F(CheckTest, NamesThePlaceOfAFileThatCannotBeRead) {
   const Outcome outcome = Check(folder_.Path("missing"));
   EXPECT_EQ(outcome.code, 2);

@@ -199,6 +199,37 @@ TEST_F(RunTest, MakesItsOwnNetworkWhereThereIsNoMulticast) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
+TEST_F(RunTest, RunsInANetworkOfItsOwnWhenAsked) {
+  std::vector<std::string> command = Command(FakeGraph(folder_, SourceConfig(kEndless), ""));
+  command.push_back("--isolate");
+  Launched launcher(command, folder_);
+  ASSERT_TRUE(Eventually(
+      [this] { return Processes().size() == 3 || !ReadFile(folder_.Path("stderr")).empty(); }));
+  if (Processes().size() != 3) GTEST_SKIP() << ReadFile(folder_.Path("stderr"));
+  const auto network = [](const std::string& pid) {
+    return std::filesystem::read_symlink("/proc/" + pid + "/ns/net").string();
+  };
+  for (const pid_t pid : Processes()) EXPECT_NE(network(std::to_string(pid)), network("self"));
+  launcher.Signal(SIGINT);
+  EXPECT_EQ(launcher.Wait().code, 130);
+}
+
+TEST_F(RunTest, RefusesASecondGraphOnTheSameUrlAndNamesTheFirst) {
+  std::vector<std::string> command = Command(FakeGraph(folder_, SourceConfig(kEndless), ""));
+  const std::string url = "udpm://239.255.76.67:" + std::to_string(32'100 + getpid() % 600);
+  command.insert(command.end(), {"--url", url + "?ttl=0"});
+  Launched first(command, folder_);
+  ASSERT_TRUE(Eventually([this] { return Processes().size() == 3; }));
+  const TemporaryFolder other;
+  const Outcome second =
+      RunLauncher({"run", FakeGraph(other, "", ""), "--url", url + "?ttl=1"}, other);
+  EXPECT_EQ(second.code, 2);
+  EXPECT_THAT(second.err, HasSubstr("the launcher with process number " +
+                                    std::to_string(first.pid()) + " runs a graph there"));
+  first.Signal(SIGINT);
+  EXPECT_EQ(first.Wait().code, 130);
+}
+
 TEST_F(RunTest, KeepsTwoRunsAtATimeApart) {
   const TemporaryFolder other;
   const std::string graph = FakeGraph(folder_, SourceConfig("num_frames: 50"), "");
