@@ -42,8 +42,7 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
             ComponentSeed(config_.seed(), features.header.utime, c), &sides);
   }
   Surfaces surfaces{std::move(sides.faces), std::move(sides.arcs),
-                    FindTopPatches(points, features.width, features.height, features.thinning,
-                                   kMaxTopStep, kMinTopPoints)};
+                    FindTopPatches(points, tabletop, X_TC, kMaxTopStep, kMinTopPoints)};
   MeasureExtents(points, &surfaces);
 
   const auto propose = [&list](const std::vector<Hypothesis>& hypotheses) {

@@ -6,6 +6,7 @@
 
 #include "modules/geometry/convex_hull.h"
 #include "modules/geometry/image_components.h"
+#include "modules/hough_segmenter/free_edges.h"
 #include "modules/hough_segmenter/quantile.h"
 
 namespace declutter {
@@ -74,10 +75,12 @@ Eigen::Vector2f MinimumAreaAxis(const TopPatch& patch) {
   return best;
 }
 
-std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points, int width, int height,
-                                     int thinning, float max_step_m, int min_points) {
-  const int columns = (width + thinning - 1) / thinning;
-  const int rows = (height + thinning - 1) / thinning;
+std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points,
+                                     const Tabletop& tabletop, const Eigen::Isometry3d& X_TC,
+                                     float max_step_m, int min_points) {
+  const int thinning = tabletop.thinning;
+  const int columns = (tabletop.objects.camera.width + thinning - 1) / thinning;
+  const int rows = (tabletop.objects.camera.height + thinning - 1) / thinning;
   const auto num_pixels = static_cast<size_t>(columns) * static_cast<size_t>(rows);
   std::vector<uint8_t> mask(num_pixels, 0);
   std::vector<uint8_t> is_point(num_pixels, 0);
@@ -104,12 +107,16 @@ std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points, int 
     TopPatch& patch = patches[static_cast<size_t>(label)];
     patch.component = point.component;
     patch.points.push_back(point.p_T.head<2>());
+    patch.sigma = std::max(patch.sigma, point.sigma);
     patch_heights[static_cast<size_t>(label)].push_back(point.p_T.z());
   }
+  for (size_t i = 0; i < patches.size(); ++i) {
+    if (!patches[i].points.empty()) patches[i].height = Quantile(&patch_heights[i], 0.5);
+  }
+  AddFreeEdges(tabletop, X_TC, labels.label, &patches);
   std::vector<TopPatch> found;
   for (size_t i = 0; i < patches.size(); ++i) {
     if (patches[i].points.empty()) continue;
-    patches[i].height = Quantile(&patch_heights[i], 0.5);
     patches[i].hull = Hull(patches[i].points);
     if (patches[i].hull.size() >= 3) found.push_back(std::move(patches[i]));
   }

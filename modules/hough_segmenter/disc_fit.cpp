@@ -1,0 +1,118 @@
+#include "modules/hough_segmenter/disc_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace declutter {
+namespace {
+
+constexpr size_t kMaxCorners = 18;        // edge points that circles are laid through
+constexpr size_t kMaxScored = 120;        // edge points that decide between them
+constexpr float kMaxEdgeError = 0.003f;   // [m] of an edge point on the circle
+constexpr float kMinShare = 0.6f;         // of the edge points that must lie on the circle
+constexpr float kMaxOutside = 0.05f;      // share of the patch that may lie outside
+constexpr float kMinSagitta = 0.004f;     // [m] of the arc: what tells it from a straight edge
+constexpr float kArcBin = 0.15f;          // [rad]
+
+using Points = std::vector<Eigen::Vector2f>;
+
+std::optional<CircleModel> CircleThrough(const Eigen::Vector2f& a, const Eigen::Vector2f& b,
+                                         const Eigen::Vector2f& c) {
+  Eigen::Matrix2f A;
+  A << (b - a).transpose(), (c - a).transpose();
+  if (std::abs(A.determinant()) < 1e-5f) return std::nullopt;
+  const Eigen::Vector2f rhs(0.5f * (b.squaredNorm() - a.squaredNorm()),
+                            0.5f * (c.squaredNorm() - a.squaredNorm()));
+  CircleModel circle;
+  circle.c = A.inverse() * rhs;
+  circle.r = (circle.c - a).norm();
+  return circle;
+}
+
+Points EveryNth(const Points& points, size_t max_num) {
+  const size_t stride = points.size() / max_num + 1;
+  Points some;
+  for (size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
+  return some;
+}
+
+float NumOn(const Points& edge, const CircleModel& circle, float tolerance) {
+  int num = 0;
+  for (const Eigen::Vector2f& p : edge) {
+    num += std::abs((p - circle.c).norm() - circle.r) < tolerance;
+  }
+  return static_cast<float>(num);
+}
+
+// Least squares on the edge points near the circle.
+void FitToEdge(const Points& edge, float tolerance, CircleModel* circle) {
+  for (int iteration = 0; iteration < 4; ++iteration) {
+    Eigen::Matrix3f H = Eigen::Matrix3f::Identity() * 1e-6f;
+    Eigen::Vector3f g = Eigen::Vector3f::Zero();
+    for (const Eigen::Vector2f& p : edge) {
+      const Eigen::Vector2f q = p - circle->c;
+      const float distance = q.norm();
+      if (std::abs(distance - circle->r) > tolerance || distance < 1e-6f) continue;
+      const Eigen::Vector3f J(-q.x() / distance, -q.y() / distance, -1.0f);
+      H += J * J.transpose();
+      g += J * (distance - circle->r);
+    }
+    const Eigen::Vector3f step = H.ldlt().solve(g);
+    circle->c -= step.head<2>();
+    circle->r -= step.z();
+  }
+}
+
+// [rad] of the circle on which there are edge points.
+float ArcOf(const Points& edge, const CircleModel& circle, float tolerance) {
+  std::vector<char> is_covered(static_cast<size_t>(2 * M_PI / kArcBin) + 1, 0);
+  for (const Eigen::Vector2f& p : edge) {
+    const Eigen::Vector2f q = p - circle.c;
+    if (std::abs(q.norm() - circle.r) > tolerance) continue;
+    const float angle = std::atan2(q.y(), q.x()) + static_cast<float>(M_PI);
+    is_covered[static_cast<size_t>(angle / kArcBin)] = 1;
+  }
+  return kArcBin * static_cast<float>(std::count(is_covered.begin(), is_covered.end(), 1));
+}
+
+bool Contains(const TopPatch& patch, const CircleModel& circle, float tolerance) {
+  int num_outside = 0;
+  for (const Eigen::Vector2f& p : patch.points) {
+    num_outside += (p - circle.c).norm() > circle.r + tolerance;
+  }
+  return static_cast<float>(num_outside) < kMaxOutside * static_cast<float>(patch.points.size());
+}
+
+}  // namespace
+
+std::optional<CircleModel> FitDisc(const TopPatch& patch, float min_radius_m, float max_radius_m) {
+  const float tolerance = std::max(kMaxEdgeError, 2 * patch.sigma);
+  const Points corners = EveryNth(patch.free_edge, kMaxCorners);
+  const Points scored = EveryNth(patch.free_edge, kMaxScored);
+  CircleModel best;
+  float best_num = 0;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    for (size_t j = i + 1; j < corners.size(); ++j) {
+      for (size_t k = j + 1; k < corners.size(); ++k) {
+        const auto circle = CircleThrough(corners[i], corners[j], corners[k]);
+        if (!circle || circle->r < min_radius_m || circle->r > max_radius_m) continue;
+        const float num = NumOn(scored, *circle, tolerance);
+        if (num <= best_num) continue;
+        best_num = num;
+        best = *circle;
+      }
+    }
+  }
+  if (best_num < kMinShare * static_cast<float>(scored.size())) return std::nullopt;
+  FitToEdge(patch.free_edge, 2 * tolerance, &best);
+  if (best.r < min_radius_m || best.r > max_radius_m) return std::nullopt;
+  const float arc = std::min(ArcOf(patch.free_edge, best, tolerance), static_cast<float>(M_PI));
+  if (best.r * (1 - std::cos(0.5f * arc)) < kMinSagitta || !Contains(patch, best, tolerance)) {
+    return std::nullopt;
+  }
+  return best;
+}
+
+}  // namespace declutter
