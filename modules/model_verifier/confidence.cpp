@@ -22,7 +22,7 @@ int NumUnexplained(const Solid& solid, const DepthImage& image, const Plane& sup
       const double z = image.DepthAt(u, v);
       if (z <= 0 || labels[static_cast<size_t>(v * image.camera.width + u)] != 0) continue;
       const Eigen::Vector3d p_C = image.camera.Ray(u, v) * z;
-      num += caster.SignedDistance(p_C) < kUnexplainedReach &&
+      num += caster.SignedDistance(caster.X_OC() * p_C) < kUnexplainedReach &&
              support.Height(p_C) > 1.5 * SurfaceTolerance(z);
     }
   }

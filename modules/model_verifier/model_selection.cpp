@@ -22,7 +22,7 @@ double SharedVolume(const Solid& a, const SolidCaster& b) {
             Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5) / kSteps - Eigen::Vector3d::Constant(0.5);
         if (a.shape == Shape::kCylinder && x.head<2>().norm() > 0.5) continue;
         ++num_samples;
-        num_inside += b.SignedDistance(a.X_CO * x.cwiseProduct(a.size)) < -min_depth;
+        num_inside += b.SignedDistance(b.X_OC() * a.X_CO * x.cwiseProduct(a.size)) < -min_depth;
       }
     }
   }
@@ -40,8 +40,10 @@ double Gain(const ModelVerifierConfig& config, const Candidate& candidate,
   for (const auto& pixel : candidate.evidence.explained) {
     if (!is_taken[static_cast<size_t>(pixel.pixel)]) gain += pixel.fit;
   }
+  gain *= candidate.evidence.pixel_weight;
   double penalty = config.violation_weight() *
                    (candidate.evidence.num_violating + candidate.evidence.num_contradicting);
+  penalty += candidate.evidence.num_overhanging;
   for (Evidence extent : candidate.hypothesis.evidence) {
     if (extent == Evidence::kAssumed) penalty += config.assumption_penalty() * gain;
   }
@@ -50,7 +52,7 @@ double Gain(const ModelVerifierConfig& config, const Candidate& candidate,
 
 // True when the image speaks enough for a candidate for it to be considered at all.
 bool IsPlausible(const ModelVerifierConfig& config, const RayEvidence& evidence) {
-  const auto num_explained = static_cast<double>(evidence.explained.size());
+  const auto num_explained = static_cast<double>(evidence.num_explained());
   return num_explained >= config.min_explained_px() &&
          evidence.num_violating + evidence.num_contradicting <=
              config.max_violating_share() * num_explained;
@@ -58,16 +60,13 @@ bool IsPlausible(const ModelVerifierConfig& config, const RayEvidence& evidence)
 
 class Selection {
  public:
-  Selection(const ModelVerifierConfig& config, const DepthImage& image, const NormalImage& normals,
-            const Plane& support)
+  Selection(const ModelVerifierConfig& config, const Observation& observation)
       : config_(config),
-        image_(image),
-        normals_(normals),
-        support_(support),
-        is_taken_(image.counts.size(), 0) {}
+        observation_(observation),
+        is_taken_(observation.image.counts.size(), 0) {}
 
   void Add(const Hypothesis& hypothesis) {
-    Candidate candidate{hypothesis, CastRays(hypothesis.solid, image_, normals_, support_)};
+    Candidate candidate{hypothesis, CastRays(hypothesis.solid, observation_)};
     if (!IsPlausible(config_, candidate.evidence)) return;
     candidate.gain = Gain(config_, candidate, is_taken_);
     candidates_.push_back(std::move(candidate));
@@ -100,12 +99,16 @@ class Selection {
           !Intersect(candidate.hypothesis.solid, space, config_.max_shared_volume())) {
         continue;
       }
-      candidate.hypothesis.solid = Refine(candidate.hypothesis.solid, image_, normals_);
-      candidate.evidence = CastRays(candidate.hypothesis.solid, image_, normals_, support_);
-      candidate.gain =
-          IsPlausible(config_, candidate.evidence) ? Gain(config_, candidate, is_taken_) : 0.0;
+      candidate.hypothesis.solid = Refine(candidate.hypothesis.solid, observation_);
+      candidate.evidence = CastRays(candidate.hypothesis.solid, observation_);
+      candidate.gain = Gain(config_, candidate, is_taken_);
       candidate.is_refined = true;
       has_changed = true;
+    }
+    if (has_changed) {
+      const auto is_out = [&](const Candidate& c) { return !IsPlausible(config_, c.evidence); };
+      candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), is_out),
+                        candidates_.end());
     }
     return has_changed;
   }
@@ -125,9 +128,7 @@ class Selection {
   }
 
   const ModelVerifierConfig& config_;
-  const DepthImage& image_;
-  const NormalImage& normals_;
-  const Plane& support_;
+  const Observation& observation_;
   std::vector<char> is_taken_;  // pixels that a selected solid explains
   std::vector<Candidate> candidates_;
 };
@@ -136,9 +137,8 @@ class Selection {
 
 std::vector<Candidate> SelectModels(const ModelVerifierConfig& config,
                                     const std::vector<Hypothesis>& hypotheses,
-                                    const DepthImage& image, const NormalImage& normals,
-                                    const Plane& support) {
-  Selection selection(config, image, normals, support);
+                                    const Observation& observation) {
+  Selection selection(config, observation);
   for (const Hypothesis& hypothesis : hypotheses) selection.Add(hypothesis);
   return selection.Run();
 }

@@ -21,7 +21,6 @@ struct Candidate {
 // space.
 std::vector<Candidate> SelectModels(const ModelVerifierConfig& config,
                                     const std::vector<Hypothesis>& hypotheses,
-                                    const DepthImage& image, const NormalImage& normals,
-                                    const Plane& support);
+                                    const Observation& observation);
 
 }  // namespace declutter

@@ -5,10 +5,14 @@
 #include "modules/model_verifier/confidence.h"
 #include "modules/model_verifier/extent_evidence.h"
 #include "modules/model_verifier/model_selection.h"
+#include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/support_settling.h"
 
 namespace declutter {
 namespace {
+
+// [px] between the pixels that models are selected by; what is selected is measured with all.
+constexpr int kSelectionStep = 2;
 
 // Fills the empty label image: each pixel belongs to the object whose surface it fits best; what is
 // seen inside an open cylinder belongs to it when nothing else explains it.
@@ -63,19 +67,20 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
 
   const Plane& support = list.planes[0];
   const NormalImage normals(frame.image);
-  for (const Candidate& candidate :
-       SelectModels(config_, hypotheses.hypotheses, frame.image, normals, support)) {
+  const Observation observation{frame.image, normals, support};
+  const Observation coarse{frame.image, normals, support, kSelectionStep};
+  for (const Candidate& candidate : SelectModels(config_, hypotheses.hypotheses, coarse)) {
     ObjectModel object;
-    object.solid = candidate.hypothesis.solid;
+    object.solid = Refine(candidate.hypothesis.solid, observation);
     object.evidence = candidate.hypothesis.evidence;
     object.num_votes = candidate.hypothesis.num_votes;
     list.objects.push_back(object);
   }
-  SettleOnSupports(support, frame.image, normals, &list.objects);
+  SettleOnSupports(coarse, &list.objects);
   std::vector<RayEvidence> evidence;
   for (ObjectModel& object : list.objects) {
-    evidence.push_back(CastRays(object.solid, frame.image, normals, support));
-    object.num_explained = static_cast<int32_t>(evidence.back().explained.size());
+    evidence.push_back(CastRays(object.solid, observation));
+    object.num_explained = evidence.back().num_explained();
     object.num_occluded = evidence.back().num_occluded;
     object.num_violating = evidence.back().num_violating;
     object.id = static_cast<int32_t>(evidence.size());

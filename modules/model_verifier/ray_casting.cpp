@@ -10,6 +10,8 @@ namespace declutter {
 namespace {
 
 constexpr double kEdgeMargin = 0.012;   // [m] around the edges of a solid normals are blurred
+constexpr double kMaxOverhang = 0.015;  // [m] beside a solid that its top face is looked for
+constexpr double kTopTolerance = 0.004;  // [m] in height of points on one top face
 constexpr float kMinNormalCos = 0.85f;  // of a measured normal and the surface's: 32 degrees
 
 }  // namespace
@@ -35,27 +37,31 @@ PixelWindow ProjectionWindow(const Solid& solid, double margin_m, const PinholeC
 }
 
 SolidCaster::SolidCaster(const Solid& solid)
-    : shape_(solid.shape), half_size_(0.5 * solid.size), X_OC_(solid.X_CO.inverse()) {}
+    : shape_(solid.shape),
+      half_size_(0.5 * solid.size),
+      X_OC_(solid.X_CO.inverse()),
+      camera_O_(X_OC_.translation()) {}
 
-std::optional<Passage> SolidCaster::Cast(const Eigen::Vector3d& ray_C) const {
-  const Eigen::Vector3d o = X_OC_.translation();
-  const Eigen::Vector3d d = X_OC_.linear() * ray_C;
+std::optional<Passage> SolidCaster::Cast(const Eigen::Vector3d& d) const {
+  const Eigen::Vector3d& o = camera_O_;
   double z_in = 0;
   double z_out = std::numeric_limits<double>::max();
   int entry_axis = -1;
   const int first_slab = shape_ == Shape::kBox ? 0 : 2;
-  for (int axis = first_slab; axis < 3; ++axis) {
+  for (int axis = 2; axis >= first_slab; --axis) {
     if (std::abs(d[axis]) < 1e-12) {
       if (std::abs(o[axis]) > half_size_[axis]) return std::nullopt;
       continue;
     }
-    const double z0 = (-std::copysign(half_size_[axis], d[axis]) - o[axis]) / d[axis];
-    const double z1 = (std::copysign(half_size_[axis], d[axis]) - o[axis]) / d[axis];
-    if (z0 > z_in) {
-      z_in = z0;
+    const double inverse = 1 / d[axis];
+    const double middle = -o[axis] * inverse;
+    const double half = std::abs(half_size_[axis] * inverse);
+    if (middle - half > z_in) {
+      z_in = middle - half;
       entry_axis = axis;
     }
-    z_out = std::min(z_out, z1);
+    z_out = std::min(z_out, middle + half);
+    if (z_in >= z_out) return std::nullopt;
   }
   if (shape_ == Shape::kCylinder) {
     const double a = d.head<2>().squaredNorm();
@@ -78,8 +84,7 @@ std::optional<Passage> SolidCaster::Cast(const Eigen::Vector3d& ray_C) const {
   return Passage{z_in, z_out, entry_axis == 2 && d.z() < 0};
 }
 
-double SolidCaster::SignedDistance(const Eigen::Vector3d& p_C) const {
-  const Eigen::Vector3d p = X_OC_ * p_C;
+double SolidCaster::SignedDistance(const Eigen::Vector3d& p) const {
   if (shape_ == Shape::kBox) {
     const Eigen::Vector3d q = p.cwiseAbs() - half_size_;
     return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
@@ -88,9 +93,14 @@ double SolidCaster::SignedDistance(const Eigen::Vector3d& p_C) const {
   return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
 }
 
-std::optional<Eigen::Vector3d> SolidCaster::NormalAt(const Eigen::Vector3d& p_C,
+std::optional<double> SolidCaster::OverhangOf(const Eigen::Vector3d& p, double tolerance) const {
+  if (std::abs(p.z() - half_size_.z()) > tolerance) return std::nullopt;
+  if (shape_ == Shape::kCylinder) return p.head<2>().norm() - half_size_.x();
+  return (p.cwiseAbs() - half_size_).head<2>().maxCoeff();
+}
+
+std::optional<Eigen::Vector3d> SolidCaster::NormalAt(const Eigen::Vector3d& p,
                                                      double edge_margin) const {
-  const Eigen::Vector3d p = X_OC_ * p_C;
   Eigen::Vector3d n = Eigen::Vector3d::Zero();
   if (shape_ == Shape::kCylinder) {
     const double radial = p.head<2>().norm();
@@ -102,64 +112,115 @@ std::optional<Eigen::Vector3d> SolidCaster::NormalAt(const Eigen::Vector3d& p_C,
     } else {
       n.z() = std::copysign(1.0, p.z());
     }
-  } else {
-    Eigen::Vector3d q = p.cwiseAbs() - half_size_;
-    int face = 0;
-    q.maxCoeff(&face);
-    n[face] = std::copysign(1.0, p[face]);
-    q[face] = std::numeric_limits<double>::lowest();
-    if (q.maxCoeff() > -edge_margin) return std::nullopt;
+    return n;
   }
-  return X_OC_.linear().transpose() * n;
+  Eigen::Vector3d q = p.cwiseAbs() - half_size_;
+  int face = 0;
+  q.maxCoeff(&face);
+  n[face] = std::copysign(1.0, p[face]);
+  q[face] = std::numeric_limits<double>::lowest();
+  if (q.maxCoeff() > -edge_margin) return std::nullopt;
+  return n;
 }
+
+namespace {
+
+// Sorts the observed pixels into what they say of one solid.
+class RayCast {
+ public:
+  RayCast(const Solid& solid, const Observation& observation)
+      : solid_(solid),
+        observation_(observation),
+        caster_(solid),
+        support_normal_O_(caster_.X_OC().linear() * observation.support.normal),
+        camera_height_(observation.support.Height(Eigen::Vector3d::Zero())) {
+    evidence_.pixel_weight = observation.pixel_weight();
+  }
+
+  RayEvidence Run() {
+    const PinholeCamera& camera = observation_.image.camera;
+    const PixelWindow window = ProjectionWindow(solid_, kMaxOverhang, camera);
+    const int step = observation_.step;
+    const auto first = [step](int begin) { return (begin + step - 1) / step * step; };
+    const Eigen::Vector3d right_O = caster_.X_OC().linear().col(0) / camera.fx;
+    for (int v = first(window.v_begin); v < window.v_end; v += step) {
+      const Eigen::Vector3d left_O = caster_.X_OC().linear() * camera.Ray(0, v);
+      for (int u = first(window.u_begin); u < window.u_end; u += step) {
+        See(u, v, left_O + u * right_O);
+      }
+    }
+    return std::move(evidence_);
+  }
+
+ private:
+  void See(int u, int v, const Eigen::Vector3d& ray_O) {
+    const std::optional<Passage> passage = caster_.Cast(ray_O);
+    const double z = observation_.image.DepthAt(u, v);
+    if (!passage) {
+      if (z > 0 && Overhangs(z, ray_O)) evidence_.num_overhanging += evidence_.pixel_weight;
+      return;
+    }
+    if (z <= 0) {
+      evidence_.num_unknown += evidence_.pixel_weight;
+      return;
+    }
+    const double tolerance = SurfaceTolerance(z);
+    const Eigen::Vector3d p_O = caster_.X_OC().translation() + z * ray_O;
+    const double distance = caster_.SignedDistance(p_O);
+    if (std::abs(distance) < tolerance && Height(z, ray_O) >= 0.8 * tolerance) {
+      Explain(u, v, p_O, distance / tolerance, distance);
+    } else if (z < passage->z_in) {
+      evidence_.num_occluded += evidence_.pixel_weight;
+    } else if (solid_.shape == Shape::kCylinder && passage->through_top && distance < 0) {
+      evidence_.hollow.push_back(v * observation_.image.camera.width + u);
+    } else if (std::min(z, passage->z_out) - passage->z_in > tolerance) {
+      evidence_.num_violating += evidence_.pixel_weight;
+    }
+  }
+
+  void Explain(int u, int v, const Eigen::Vector3d& p_O, double relative, double distance) {
+    const auto n_O = caster_.NormalAt(p_O, kEdgeMargin);
+    const Eigen::Vector3f& measured = observation_.normals.At(u, v);
+    float normal_fit = 1;
+    if (n_O && !measured.isZero()) {
+      const Eigen::Vector3d n_C = caster_.X_OC().linear().transpose() * *n_O;
+      normal_fit = (measured.dot(n_C.cast<float>()) - kMinNormalCos) / (1 - kMinNormalCos);
+    }
+    if (normal_fit < 0) {
+      evidence_.num_contradicting += evidence_.pixel_weight;
+      return;
+    }
+    evidence_.explained.push_back({v * observation_.image.camera.width + u,
+                                   normal_fit * static_cast<float>(1 - relative * relative),
+                                   static_cast<float>(distance)});
+  }
+
+  bool Overhangs(double z, const Eigen::Vector3d& ray_O) const {
+    const Eigen::Vector3d p_O = caster_.X_OC().translation() + z * ray_O;
+    const auto overhang = caster_.OverhangOf(p_O, kTopTolerance);
+    return overhang && *overhang > 0 && *overhang < kMaxOverhang &&
+           Height(z, ray_O) > SurfaceTolerance(z);
+  }
+
+  // [m] above the support plane.
+  double Height(double z, const Eigen::Vector3d& ray_O) const {
+    return camera_height_ + z * support_normal_O_.dot(ray_O);
+  }
+
+  const Solid& solid_;
+  const Observation& observation_;
+  SolidCaster caster_;
+  Eigen::Vector3d support_normal_O_;
+  double camera_height_;
+  RayEvidence evidence_;
+};
+
+}  // namespace
 
 double SurfaceTolerance(double z) { return std::max(0.005, 3 * MeasurementSigma(z)); }
 
-RayEvidence CastRays(const Solid& solid, const DepthImage& image, const NormalImage& normals,
-                     const Plane& support) {
-  const PinholeCamera& camera = image.camera;
-  const SolidCaster caster(solid);
-  const PixelWindow window = ProjectionWindow(solid, 0, camera);
-  RayEvidence evidence;
-  for (int v = window.v_begin; v < window.v_end; ++v) {
-    for (int u = window.u_begin; u < window.u_end; ++u) {
-      const Eigen::Vector3d ray_C = camera.Ray(u, v);
-      const std::optional<Passage> passage = caster.Cast(ray_C);
-      if (!passage) continue;
-      const double z = image.DepthAt(u, v);
-      if (z <= 0) {
-        ++evidence.num_unknown;
-        continue;
-      }
-      const double tolerance = SurfaceTolerance(z);
-      const Eigen::Vector3d p_C = ray_C * z;
-      const bool is_on_support = support.Height(p_C) < 0.8 * tolerance;
-      const double distance = caster.SignedDistance(p_C);
-      if (std::abs(distance) < tolerance && !is_on_support) {
-        const auto n_C = caster.NormalAt(p_C, kEdgeMargin);
-        const Eigen::Vector3f& measured = normals.At(u, v);
-        float normal_fit = 1;
-        if (n_C && !measured.isZero()) {
-          normal_fit = (measured.dot(n_C->cast<float>()) - kMinNormalCos) / (1 - kMinNormalCos);
-        }
-        if (normal_fit < 0) {
-          ++evidence.num_contradicting;
-          continue;
-        }
-        const double relative = distance / tolerance;
-        evidence.explained.push_back({v * camera.width + u,
-                                      normal_fit * static_cast<float>(1 - relative * relative),
-                                      static_cast<float>(distance)});
-      } else if (z < passage->z_in) {
-        ++evidence.num_occluded;
-      } else if (solid.shape == Shape::kCylinder && passage->through_top && distance < 0) {
-        evidence.hollow.push_back(v * camera.width + u);
-      } else if (std::min(z, passage->z_out) - passage->z_in > tolerance) {
-        ++evidence.num_violating;
-      }
-    }
-  }
-  return evidence;
+RayEvidence CastRays(const Solid& solid, const Observation& observation) {
+  return RayCast(solid, observation).Run();
 }
 
 }  // namespace declutter

@@ -12,6 +12,17 @@
 
 namespace declutter {
 
+// What the camera measured, at the pixels that are multiples of step in both directions.
+struct Observation {
+  const DepthImage& image;
+  const NormalImage& normals;
+  const Plane& support;
+  int step = 1;
+
+  // [px] that each of these pixels stands for.
+  int pixel_weight() const { return step * step; }
+};
+
 // Pixel rectangle, end exclusive.
 struct PixelWindow {
   int u_begin = 0, u_end = 0, v_begin = 0, v_end = 0;
@@ -33,41 +44,52 @@ class SolidCaster {
  public:
   explicit SolidCaster(const Solid& solid);
 
-  // ray_C has z = 1.
-  std::optional<Passage> Cast(const Eigen::Vector3d& ray_C) const;
+  const Eigen::Isometry3d& X_OC() const { return X_OC_; }
+
+  // A ray from the camera, turned into O; in C it has z = 1.
+  std::optional<Passage> Cast(const Eigen::Vector3d& ray_O) const;
 
   // [m] distance of a point to the surface, negative inside.
-  double SignedDistance(const Eigen::Vector3d& p_C) const;
+  double SignedDistance(const Eigen::Vector3d& p_O) const;
 
-  // Outward unit normal in C of the face nearest to a point of the surface; nothing within
+  // [m] outside the sides, in the plane of the top face, of a point that lies in it; nothing for
+  // others.
+  std::optional<double> OverhangOf(const Eigen::Vector3d& p_O, double tolerance) const;
+
+  // Outward unit normal in O of the face nearest to a point of the surface; nothing within
   // `edge_margin` [m] of an edge, where two faces meet.
-  std::optional<Eigen::Vector3d> NormalAt(const Eigen::Vector3d& p_C, double edge_margin) const;
+  std::optional<Eigen::Vector3d> NormalAt(const Eigen::Vector3d& p_O, double edge_margin) const;
 
  private:
   Shape shape_;
   Eigen::Vector3d half_size_;
   Eigen::Isometry3d X_OC_;
+  Eigen::Vector3d camera_O_;
 };
 
-// How the pixels that a solid projects to were measured.
+// How the pixels that a solid projects to were measured. Counts are of the sensor's pixels,
+// whatever the step.
 struct RayEvidence {
   struct ExplainedPixel {
     int pixel;       // v * width + u
     float fit;       // 1 on the surface with its normal .. 0 at the tolerances
     float distance;  // [m] signed, negative inside
   };
-  std::vector<ExplainedPixel> explained;  // measured on the surface
+  std::vector<ExplainedPixel> explained;  // measured on the surface; one stands for pixel_weight
+  int pixel_weight = 1;                   // [px]
   std::vector<int> hollow;                // pixels that look into a cylinder through its open top
   int num_contradicting = 0;              // measured on the surface, with another normal
   int num_occluded = 0;                   // hidden by something in front
   int num_violating = 0;                  // measured behind the surface: free space inside
+  int num_overhanging = 0;                // beside the solid, where its top face goes on
   int num_unknown = 0;                    // not measured
+
+  int num_explained() const { return pixel_weight * static_cast<int>(explained.size()); }
 };
 
-// Casts a ray through each pixel that can see the solid. Points within the noise of the support
-// plane belong to the plane and explain nothing.
-RayEvidence CastRays(const Solid& solid, const DepthImage& image, const NormalImage& normals,
-                     const Plane& support);
+// Casts a ray through each observed pixel that can see the solid. Points within the noise of the
+// support plane belong to the plane and explain nothing.
+RayEvidence CastRays(const Solid& solid, const Observation& observation);
 
 // [m] distance from a surface within which a measurement at depth z lies on it: 3 standard
 // deviations of the sensor noise.

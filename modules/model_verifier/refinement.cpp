@@ -15,7 +15,7 @@ namespace {
 constexpr double kMargin = 0.030;        // [m] around the solid where its points are looked for
 constexpr double kEdgeMargin = 0.008;    // [m] along edges where surfaces are rounded or blurred
 constexpr double kMinCos = 0.80;         // of a measured normal and the surface's
-constexpr int kMinFacePoints = 60;       // that move a face
+constexpr int kMinFacePoints = 60;       // [px] that move a face
 constexpr double kMaxGrowth = 0.025;     // [m] that an edge moves outward at most
 constexpr double kMaxShrinkage = 0.015;  // [m] that an edge moves inward at most
 constexpr double kReference = 0.030;     // [m] of a face before its edge that give its full width
@@ -80,7 +80,7 @@ class BoxFit {
       // A yaw of the box by delta takes the plane x = o to x + delta * y = o.
       const double lever = face.axis == 0 ? point.p_O.y() : face.axis == 1 ? -point.p_O.x() : 0;
       const double x = point.p_O[face.axis];
-      sums.num += 1;
+      sums.num += point.num_px;
       sums.w += w;
       sums.x += w * x;
       sums.l += w * lever;
@@ -116,8 +116,8 @@ class BoxFit {
 
 // Where a surface ends along a coordinate: its area beyond a reference strip, divided by the width
 // that the strip has. Samples are (outward coordinate, area).
-std::optional<double> AreaEnd(const std::vector<std::pair<double, double>>& samples, double edge,
-                              double inner_limit) {
+std::optional<double> AreaEnd(const std::vector<std::pair<double, double>>& samples, int num_px,
+                              double edge, double inner_limit) {
   const double begin = edge - kMaxShrinkage;
   const double reference = std::min(kReference, begin - inner_limit);
   if (reference < 0.008) return std::nullopt;
@@ -127,7 +127,7 @@ std::optional<double> AreaEnd(const std::vector<std::pair<double, double>>& samp
   for (const auto& [x, area] : samples) {
     if (x > begin - reference && x <= begin) {
       reference_area += area;
-      ++num;
+      num += num_px;
     } else if (x > begin && x < edge + kMaxGrowth) {
       beyond_area += area;
     }
@@ -152,11 +152,11 @@ std::optional<double> HiddenEnd(const std::vector<SurfacePoint>& points, const B
     }
     if (samples.size() > best.size()) best = std::move(samples);
   }
-  return AreaEnd(best, half[hidden.axis], -half[hidden.axis]);
+  return AreaEnd(best, points.empty() ? 1 : points[0].num_px, half[hidden.axis], -half[hidden.axis]);
 }
 
-Solid RefineBox(Solid solid, const DepthImage& image, const NormalImage& normals) {
-  const std::vector<SurfacePoint> points = PointsNear(solid, kMargin, image, normals);
+Solid RefineBox(Solid solid, const Observation& observation) {
+  const std::vector<SurfacePoint> points = PointsNear(solid, kMargin, observation);
   const Eigen::Vector3d half = 0.5 * solid.size;
   const BoxFit fit(points, half);
   Eigen::Vector3d low = -half;
@@ -196,7 +196,7 @@ bool FitSide(const std::vector<SurfacePoint>& points, double half_height, Eigen:
     const double w = Weight(point, cosine);
     H += w * J * J.transpose();
     g += w * J * residual;
-    ++num;
+    num += point.num_px;
   }
   if (num < kMinFacePoints) return false;
   *x -= H.ldlt().solve(g);
@@ -215,14 +215,14 @@ std::optional<double> TopOfDisc(const std::vector<SurfacePoint>& points, const E
     const double w = Weight(point, point.ray_O.z());
     sum += w * point.p_O.z();
     weight += w;
-    ++num;
+    num += point.num_px;
   }
   if (num < kMinFacePoints) return std::nullopt;
   return sum / weight;
 }
 
-Solid RefineCylinder(Solid solid, const DepthImage& image, const NormalImage& normals) {
-  const std::vector<SurfacePoint> points = PointsNear(solid, kMargin, image, normals);
+Solid RefineCylinder(Solid solid, const Observation& observation) {
+  const std::vector<SurfacePoint> points = PointsNear(solid, kMargin, observation);
   const double half_height = 0.5 * solid.height();
   Eigen::Vector3d x(0, 0, solid.radius());  // centre, radius
   for (int iteration = 0; iteration < 4; ++iteration) {
@@ -240,9 +240,9 @@ Solid RefineCylinder(Solid solid, const DepthImage& image, const NormalImage& no
 
 }  // namespace
 
-Solid Refine(const Solid& solid, const DepthImage& image, const NormalImage& normals) {
-  return solid.shape == Shape::kBox ? RefineBox(solid, image, normals)
-                                    : RefineCylinder(solid, image, normals);
+Solid Refine(const Solid& solid, const Observation& observation) {
+  return solid.shape == Shape::kBox ? RefineBox(solid, observation)
+                                    : RefineCylinder(solid, observation);
 }
 
 }  // namespace declutter

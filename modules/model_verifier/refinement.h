@@ -1,8 +1,7 @@
 #pragma once
 
-#include "modules/geometry/depth_image.h"
 #include "modules/geometry/solid.h"
-#include "modules/model_verifier/normal_image.h"
+#include "modules/model_verifier/ray_casting.h"
 
 namespace declutter {
 
@@ -11,6 +10,6 @@ namespace declutter {
 // face is not seen moves to where the area of the face in front of it ends, so that it is not
 // biased by the pixels a percentile would cut off. Parameters without enough points keep their
 // value.
-Solid Refine(const Solid& solid, const DepthImage& image, const NormalImage& normals);
+Solid Refine(const Solid& solid, const Observation& observation);
 
 }  // namespace declutter

@@ -40,7 +40,7 @@ double FootprintOver(const Solid& upper, const Solid& lower) {
                                 (0.9 * (j + 0.5) / kSteps - 0.45) * upper.size.y(), 0);
       const Eigen::Vector3d p_C = upper.X_CO * p_O;
       const double height = axis_C.dot(p_C - lower.X_CO.translation());
-      num_over += caster.SignedDistance(p_C - height * axis_C) < 0;
+      num_over += caster.SignedDistance(caster.X_OC() * (p_C - height * axis_C)) < 0;
     }
   }
   return static_cast<double>(num_over) / (kSteps * kSteps);
@@ -82,14 +82,14 @@ std::vector<Floor> FloorsBelow(const std::vector<ObjectModel>& objects, size_t u
 
 }  // namespace
 
-void SettleOnSupports(const Plane& support, const DepthImage& image, const NormalImage& normals,
-                      std::vector<ObjectModel>* objects) {
+void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects) {
+  const Plane& support = observation.support;
   std::stable_sort(objects->begin(), objects->end(),
                    [&](const ObjectModel& a, const ObjectModel& b) {
                      return Top(a.solid, support) < Top(b.solid, support);
                    });
   const auto num_violating = [&](const Solid& solid) {
-    return CastRays(solid, image, normals, support).num_violating;
+    return CastRays(solid, observation).num_violating;
   };
   for (size_t i = 0; i < objects->size(); ++i) {
     ObjectModel& upper = (*objects)[i];
@@ -99,9 +99,9 @@ void SettleOnSupports(const Plane& support, const DepthImage& image, const Norma
       upper.supported_by = floors.back().supported_by;
       continue;
     }
-    const RayEvidence seen = CastRays(upper.solid, image, normals, support);
+    const RayEvidence seen = CastRays(upper.solid, observation);
     const double max_violating =
-        seen.num_violating + kMaxNewViolating * static_cast<double>(seen.explained.size());
+        seen.num_violating + kMaxNewViolating * seen.num_explained();
     for (const Floor& floor : floors) {
       const Solid extended = Extended(upper.solid, bottom, floor.height);
       if (&floor != &floors.back() && num_violating(extended) > max_violating) continue;

@@ -2,17 +2,14 @@
 
 #include <vector>
 
-#include "modules/geometry/depth_image.h"
-#include "modules/geometry/plane.h"
 #include "modules/geometry/solid.h"
-#include "modules/model_verifier/normal_image.h"
+#include "modules/model_verifier/ray_casting.h"
 
 namespace declutter {
 
 // Extends solids whose lower end nobody saw (evidence[2] is kAssumed) down to what they stand on,
 // and sets what each stands on: the object below, or the support plane. Sorts the objects by the
 // height of their tops; supported_by counts from 1 in that order.
-void SettleOnSupports(const Plane& support, const DepthImage& image, const NormalImage& normals,
-                      std::vector<ObjectModel>* objects);
+void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects);
 
 }  // namespace declutter
