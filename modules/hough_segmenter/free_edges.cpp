@@ -5,7 +5,7 @@
 namespace declutter {
 namespace {
 
-constexpr int kMaxGap = 5;            // [px] without object points across which an occluder is seen
+constexpr int kMaxGap = 5;  // [px] without object points across which an occluder is seen
 constexpr float kSameHeight = 0.008f;  // [m] between a point and the face it may belong to
 
 class EdgeTracer {
@@ -14,7 +14,8 @@ class EdgeTracer {
              const std::vector<int32_t>& labels)
       : image_(tabletop.objects), thinning_(tabletop.thinning), X_TC_(X_TC), labels_(labels) {}
 
-  // What is first seen beside a face from pixel (u, v) in steps of (du, dv) is below it, or nothing.
+  // What is first seen beside a face from pixel (u, v) in steps of (du, dv) is below it, or
+  // nothing.
   bool IsFree(int u, int v, int du, int dv, float face_height) const {
     const int32_t label = LabelAt(u, v);
     for (int step = 1; step <= kMaxGap; ++step) {
@@ -32,8 +33,8 @@ class EdgeTracer {
 
   // Where the ray half way between a pixel and the next one meets the face.
   Eigen::Vector2f EdgePoint(int u, int v, int du, int dv, float face_height) const {
-    const Eigen::Vector3d ray_T = X_TC_.linear() * image_.camera.Ray(u + 0.5 * thinning_ * du,
-                                                                     v + 0.5 * thinning_ * dv);
+    const Eigen::Vector3d ray_T =
+        X_TC_.linear() * image_.camera.Ray(u + 0.5 * thinning_ * du, v + 0.5 * thinning_ * dv);
     const Eigen::Vector3d origin_T = X_TC_.translation();
     const double z = (face_height - origin_T.z()) / ray_T.z();
     return (origin_T + z * ray_T).head<2>().cast<float>();

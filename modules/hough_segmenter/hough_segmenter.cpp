@@ -50,6 +50,7 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
   };
   propose(CompleteBoxes(config_, surfaces));
   propose(CompleteCylinders(config_, surfaces));
+  AddSidesBelowTops(points, &list.hypotheses);
   if (list.mode == FeatureMode::kDefault) {
     propose(FindLyingCylinders(config_, points, surfaces.tops, config_.seed()));
   }

@@ -40,7 +40,10 @@ void AddBox(float x0, float x1, std::vector<TablePoint>* points) {
 }
 
 std::vector<Hypothesis> Find(const std::vector<TablePoint>& points) {
-  const auto tops = FindTopPatches(points, 400, 300, 1, 0.006f, 60);
+  Tabletop tabletop;
+  tabletop.objects.camera = {400, 300, 400, 400, 199.5, 149.5};
+  tabletop.objects.counts.assign(400 * 300, 0);
+  const auto tops = FindTopPatches(points, tabletop, Eigen::Isometry3d::Identity(), 0.006f, 60);
   return FindLyingCylinders(HoughSegmenterConfig(), points, tops, 1);
 }
 

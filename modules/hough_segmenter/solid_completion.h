@@ -29,6 +29,10 @@ inline float BottomOf(float z_min) { return z_min < 0.020f ? 0.0f : z_min; }
 // and curvature near an outline have kept cells out.
 void MeasureExtents(const std::vector<TablePoint>& points, Surfaces* surfaces);
 
+// For each of the hypotheses of which only the top is known (kTopOnlyDepth below it): the same one
+// with its side, down to where points lie on it, when there are any. Appends them. Hypotheses in T.
+void AddSidesBelowTops(const std::vector<TablePoint>& points, std::vector<Hypothesis>* hypotheses);
+
 // Region growing from front faces and top faces to full boxes (paper, section 4). Hypotheses in T:
 // X_CO holds X_TO. Where nothing is seen below a solid, it ends there and the evidence of its
 // height is kAssumed.

@@ -1,18 +1,22 @@
 #include "modules/model_verifier/model_selection.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "modules/model_verifier/refinement.h"
 
 namespace declutter {
 namespace {
 
-constexpr size_t kMaxObjects = 255;  // ids fit the label image
+constexpr size_t kMaxObjects = 255;       // ids fit the label image
+constexpr int kMaxRounds = 3;             // of exchanges
+constexpr double kMinImprovement = 1.02;  // of the gain, for an exchange
 
 // Share of `a`, sampled on a grid, that lies deeper than the tolerance inside `b`.
 double SharedVolume(const Solid& a, const SolidCaster& b) {
-  constexpr int kSteps = 7;
+  constexpr int kSteps = 5;
   const double min_depth = std::min(0.004, 0.15 * a.size.minCoeff());  // [m]
+  const Eigen::Isometry3d X_BA = b.X_OC() * a.X_CO;
   int num_inside = 0;
   int num_samples = 0;
   for (int i = 0; i < kSteps; ++i) {
@@ -22,32 +26,26 @@ double SharedVolume(const Solid& a, const SolidCaster& b) {
             Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5) / kSteps - Eigen::Vector3d::Constant(0.5);
         if (a.shape == Shape::kCylinder && x.head<2>().norm() > 0.5) continue;
         ++num_samples;
-        num_inside += b.SignedDistance(b.X_OC() * a.X_CO * x.cwiseProduct(a.size)) < -min_depth;
+        num_inside += b.SignedDistance(X_BA * x.cwiseProduct(a.size)) < -min_depth;
       }
     }
   }
   return static_cast<double>(num_inside) / num_samples;
 }
 
-bool Intersect(const Solid& a, const Solid& b, double max_shared_volume) {
-  return SharedVolume(a, SolidCaster(b)) > max_shared_volume ||
-         SharedVolume(b, SolidCaster(a)) > max_shared_volume;
+// False when the sphere around one does not reach into the other.
+bool MayIntersect(const Solid& a, const Solid& b) {
+  const Eigen::Vector3d ab = b.X_CO.translation() - a.X_CO.translation();
+  const auto reaches = [&](const Solid& sphere, const Solid& solid) {
+    const Eigen::Vector3d ab_O = solid.X_CO.linear().transpose() * ab;
+    return (ab_O.cwiseAbs() - 0.5 * solid.size).maxCoeff() < 0.5 * sphere.size.norm();
+  };
+  return reaches(a, b) && reaches(b, a);
 }
 
-double Gain(const ModelVerifierConfig& config, const Candidate& candidate,
-            const std::vector<char>& is_taken) {
-  double gain = 0;
-  for (const auto& pixel : candidate.evidence.explained) {
-    if (!is_taken[static_cast<size_t>(pixel.pixel)]) gain += pixel.fit;
-  }
-  gain *= candidate.evidence.pixel_weight;
-  double penalty = config.violation_weight() *
-                   (candidate.evidence.num_violating + candidate.evidence.num_contradicting);
-  penalty += candidate.evidence.num_overhanging;
-  for (Evidence extent : candidate.hypothesis.evidence) {
-    if (extent == Evidence::kAssumed) penalty += config.assumption_penalty() * gain;
-  }
-  return gain - penalty;
+bool Intersect(const Solid& a, const Solid& b, double max_shared_volume) {
+  return MayIntersect(a, b) && (SharedVolume(a, SolidCaster(b)) > max_shared_volume ||
+                                SharedVolume(b, SolidCaster(a)) > max_shared_volume);
 }
 
 // True when the image speaks enough for a candidate for it to be considered at all.
@@ -63,31 +61,62 @@ class Selection {
   Selection(const ModelVerifierConfig& config, const Observation& observation)
       : config_(config),
         observation_(observation),
-        is_taken_(observation.image.counts.size(), 0) {}
+        num_explaining_(observation.image.counts.size(), 0) {}
 
   void Add(const Hypothesis& hypothesis) {
     Candidate candidate{hypothesis, CastRays(hypothesis.solid, observation_)};
-    if (!IsPlausible(config_, candidate.evidence)) return;
-    candidate.gain = Gain(config_, candidate, is_taken_);
-    candidates_.push_back(std::move(candidate));
+    if (IsPlausible(config_, candidate.evidence)) candidates_.push_back(std::move(candidate));
   }
 
   std::vector<Candidate> Run() {
-    std::vector<Candidate> selected;
-    while (!candidates_.empty() && selected.size() < kMaxObjects) {
-      const auto best =
-          std::max_element(candidates_.begin(), candidates_.end(),
-                           [](const Candidate& a, const Candidate& b) { return a.gain < b.gain; });
-      if (best->gain < config_.min_explained_px()) break;
-      if (config_.refine() && RefineRivals(*best)) continue;
-      selected.push_back(std::move(*best));
-      candidates_.erase(best);
-      Take(selected.back());
+    while (const auto best = Best()) Select(*best);
+    for (int round = 0; round < kMaxRounds && Exchange(); ++round) {
     }
+    std::vector<Candidate> selected;
+    for (size_t i : selected_) selected.push_back(std::move(candidates_[i]));
     return selected;
   }
 
  private:
+  // Gives each selected candidate's place to the one that explains most when all others stay: some
+  // of the pixels that a candidate was selected for, later ones explain as well. True when one
+  // changed.
+  bool Exchange() {
+    bool has_changed = false;
+    for (const size_t old : std::vector<size_t>(selected_)) {
+      Release(old);
+      const auto best = Best();
+      const bool is_better =
+          best && (candidates_[old].num_blockers > 0 || candidates_[old].is_out ||
+                   candidates_[*best].gain > kMinImprovement * candidates_[old].gain);
+      Select(is_better ? *best : old);
+      has_changed |= is_better && *best != old;
+    }
+    while (const auto best = Best()) {
+      Select(*best);
+      has_changed = true;
+    }
+    return has_changed;
+  }
+
+  // The candidate that explains the most pixels nobody else explains; nothing when it explains too
+  // few. It and all that could take its place are refined.
+  std::optional<size_t> Best() {
+    if (selected_.size() >= kMaxObjects) return std::nullopt;
+    for (Candidate& candidate : candidates_) {
+      if (IsFree(candidate)) candidate.gain = Gain(candidate);
+    }
+    while (true) {
+      std::optional<size_t> best;
+      for (size_t i = 0; i < candidates_.size(); ++i) {
+        if (!IsFree(candidates_[i])) continue;
+        if (!best || candidates_[i].gain > candidates_[*best].gain) best = i;
+      }
+      if (!best || candidates_[*best].gain < config_.min_explained_px()) return std::nullopt;
+      if (!config_.refine() || !RefineRivals(candidates_[*best])) return best;
+    }
+  }
+
   // Refines the best candidate and those that could take its place; false when all were.
   bool RefineRivals(const Candidate& best) {
     constexpr double kMinGainOfRival = 0.7;  // of the best candidate's
@@ -95,42 +124,74 @@ class Selection {
     const double min_gain = kMinGainOfRival * best.gain;
     bool has_changed = false;
     for (Candidate& candidate : candidates_) {
-      if (candidate.is_refined || candidate.gain < min_gain ||
+      if (candidate.is_refined || !IsFree(candidate) || candidate.gain < min_gain ||
           !Intersect(candidate.hypothesis.solid, space, config_.max_shared_volume())) {
         continue;
       }
-      candidate.hypothesis.solid = Refine(candidate.hypothesis.solid, observation_);
-      candidate.evidence = CastRays(candidate.hypothesis.solid, observation_);
-      candidate.gain = Gain(config_, candidate, is_taken_);
+      RefineIfNoWorse(observation_, &candidate.hypothesis.solid, &candidate.evidence);
       candidate.is_refined = true;
+      candidate.is_out = !IsPlausible(config_, candidate.evidence);
+      candidate.num_blockers = 0;
+      for (size_t i : selected_) candidate.num_blockers += AreRivals(candidate, candidates_[i]);
+      candidate.gain = Gain(candidate);
       has_changed = true;
-    }
-    if (has_changed) {
-      const auto is_out = [&](const Candidate& c) { return !IsPlausible(config_, c.evidence); };
-      candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), is_out),
-                        candidates_.end());
     }
     return has_changed;
   }
 
-  void Take(const Candidate& taken) {
-    for (const auto& pixel : taken.evidence.explained) {
-      is_taken_[static_cast<size_t>(pixel.pixel)] = 1;
+  bool IsFree(const Candidate& candidate) const {
+    return candidate.num_blockers == 0 && !candidate.is_out && !candidate.is_selected;
+  }
+
+  bool AreRivals(const Candidate& a, const Candidate& b) const {
+    return Intersect(a.hypothesis.solid, b.hypothesis.solid, config_.max_shared_volume());
+  }
+
+  double Gain(const Candidate& candidate) const {
+    const RayEvidence& evidence = candidate.evidence;
+    double gain = 0;
+    for (const auto& pixel : evidence.explained) {
+      if (num_explaining_[static_cast<size_t>(pixel.pixel)] == 0) gain += pixel.fit;
     }
-    const auto is_out = [&](const Candidate& c) {
-      return Intersect(c.hypothesis.solid, taken.hypothesis.solid, config_.max_shared_volume());
-    };
-    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), is_out),
-                      candidates_.end());
+    gain *= evidence.pixel_weight;
+    double penalty =
+        config_.violation_weight() *
+        (evidence.num_violating + evidence.num_contradicting + evidence.num_overhanging);
+    for (Evidence extent : candidate.hypothesis.evidence) {
+      if (extent == Evidence::kAssumed) penalty += config_.assumption_penalty() * gain;
+    }
+    return gain - penalty;
+  }
+
+  void Select(size_t index) {
+    selected_.push_back(index);
+    candidates_[index].is_selected = true;
+    Mark(candidates_[index], 1);
+  }
+
+  void Release(size_t index) {
+    selected_.erase(std::find(selected_.begin(), selected_.end(), index));
+    candidates_[index].is_selected = false;
+    Mark(candidates_[index], -1);
+  }
+
+  void Mark(const Candidate& selected, int change) {
+    for (const auto& pixel : selected.evidence.explained) {
+      num_explaining_[static_cast<size_t>(pixel.pixel)] += change;
+    }
     for (Candidate& candidate : candidates_) {
-      candidate.gain = Gain(config_, candidate, is_taken_);
+      if (!candidate.is_selected && !candidate.is_out && &candidate != &selected &&
+          AreRivals(candidate, selected)) {
+        candidate.num_blockers += change;
+      }
     }
   }
 
   const ModelVerifierConfig& config_;
   const Observation& observation_;
-  std::vector<char> is_taken_;  // pixels that a selected solid explains
+  std::vector<int> num_explaining_;  // selected solids on each pixel
   std::vector<Candidate> candidates_;
+  std::vector<size_t> selected_;
 };
 
 }  // namespace

@@ -13,12 +13,15 @@ struct Candidate {
   Hypothesis hypothesis;
   RayEvidence evidence;
   bool is_refined = false;
-  double gain = 0;  // [px] explained by it alone when it was selected, less what speaks against it
+  bool is_out = false;  // implausible after its refinement
+  bool is_selected = false;
+  int num_blockers = 0;  // selected candidates in its space
+  double gain = 0;       // [px] explained by it alone, less what speaks against it
 };
 
 // The set of solids that explains the image best: takes the hypothesis that explains the most
-// pixels nobody else explains, again and again, until none explains enough. Solids do not share
-// space.
+// pixels nobody else explains, again and again, until none explains enough; then exchanges those
+// whose place another fills better. Solids do not share space.
 std::vector<Candidate> SelectModels(const ModelVerifierConfig& config,
                                     const std::vector<Hypothesis>& hypotheses,
                                     const Observation& observation);

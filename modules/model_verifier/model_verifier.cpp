@@ -71,7 +71,9 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   const Observation coarse{frame.image, normals, support, kSelectionStep};
   for (const Candidate& candidate : SelectModels(config_, hypotheses.hypotheses, coarse)) {
     ObjectModel object;
-    object.solid = Refine(candidate.hypothesis.solid, observation);
+    object.solid = candidate.hypothesis.solid;
+    RayEvidence before = CastRays(object.solid, observation);
+    if (config_.refine()) RefineIfNoWorse(observation, &object.solid, &before);
     object.evidence = candidate.hypothesis.evidence;
     object.num_votes = candidate.hypothesis.num_votes;
     list.objects.push_back(object);

@@ -41,6 +41,11 @@ ObjectList Verify(const RenderedScene& scene, const std::vector<Hypothesis>& hyp
   return ModelVerifier(ModelVerifierConfig()).Verify(frame, list);
 }
 
+Solid RefineOn(const RenderedScene& scene, const Solid& solid) {
+  const NormalImage normals(scene.depth);
+  return Refine(solid, {scene.depth, normals, scene.table});
+}
+
 constexpr char kBox[] =
     "object { box { size_x_m: 0.18 size_y_m: 0.08 size_z_m: 0.13 } y_m: 0.65 yaw_rad: 0.4 }";
 
@@ -127,7 +132,7 @@ TEST(Refine, BringsAnInaccurateBoxToTheTruth) {
   Solid start = Changed(truth, {0.002, -0.002, 0.001}, {-0.008, 0.003, -0.002});
   start.X_CO = start.X_CO * Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitZ());
   Solid found = start;
-  for (int i = 0; i < 2; ++i) found = Refine(found, scene.depth, NormalImage(scene.depth));
+  for (int i = 0; i < 2; ++i) found = RefineOn(scene, found);
   EXPECT_NEAR(found.size.x(), truth.size.x(), 0.002);
   EXPECT_NEAR(found.size.y(), truth.size.y(), 0.002);
   EXPECT_LT((found.X_CO.translation() - truth.X_CO.translation()).norm(), 0.003);
@@ -140,7 +145,7 @@ TEST(Refine, BringsAnInaccurateCylinderToTheTruth) {
       "noise { model: \"none\" }");
   const Solid truth = scene.objects[0].solid;
   const Solid start = Changed(truth, {0.002, 0.001, 0}, {0.004, 0.004, 0});
-  const Solid found = Refine(start, scene.depth, NormalImage(scene.depth));
+  const Solid found = RefineOn(scene, start);
   EXPECT_NEAR(found.radius(), 0.04, 0.0003);
   EXPECT_LT((found.X_CO.translation() - truth.X_CO.translation()).norm(), 0.0005);
 }
@@ -150,9 +155,26 @@ TEST(Refine, LeavesASolidWithoutPointsAlone) {
   Solid solid;
   solid.size = Eigen::Vector3d(0.1, 0.1, 0.1);
   solid.X_CO.translation() = Eigen::Vector3d(0, 0, 0.3);
-  const Solid found = Refine(solid, scene.depth, NormalImage(scene.depth));
+  const Solid found = RefineOn(scene, solid);
   EXPECT_EQ(found.size, solid.size);
   EXPECT_TRUE(found.X_CO.isApprox(solid.X_CO));
+}
+
+TEST(RefineIfNoWorse, KeepsASolidThatAFitWouldLeadAstray) {
+  // Only a narrow strip of the cylinder's side is seen beside the box.
+  const RenderedScene scene = RenderText(
+      "object { cylinder { radius_m: 0.03 height_m: 0.12 } x_m: 0.03 y_m: 0.7 }"
+      "object { box { size_x_m: 0.2 size_y_m: 0.05 size_z_m: 0.14 } x_m: -0.06 y_m: 0.6 }");
+  const NormalImage normals(scene.depth);
+  const Observation observation{scene.depth, normals, scene.table};
+  const Solid truth = scene.objects[0].solid;
+  Solid solid = truth;
+  RayEvidence evidence = CastRays(solid, observation);
+  const double before = evidence.Balance();
+  RefineIfNoWorse(observation, &solid, &evidence);
+  EXPECT_GE(evidence.Balance(), before - 0.02 * evidence.num_explained());
+  EXPECT_EQ(evidence.Balance(), CastRays(solid, observation).Balance());
+  EXPECT_NEAR(solid.radius(), truth.radius(), 0.006);
 }
 
 }  // namespace

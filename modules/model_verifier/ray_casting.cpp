@@ -9,10 +9,10 @@
 namespace declutter {
 namespace {
 
-constexpr double kEdgeMargin = 0.012;   // [m] around the edges of a solid normals are blurred
-constexpr double kMaxOverhang = 0.015;  // [m] beside a solid that its top face is looked for
+constexpr double kEdgeMargin = 0.012;    // [m] around the edges of a solid normals are blurred
+constexpr double kMaxOverhang = 0.015;   // [m] beside a solid that its top face is looked for
 constexpr double kTopTolerance = 0.004;  // [m] in height of points on one top face
-constexpr float kMinNormalCos = 0.85f;  // of a measured normal and the surface's: 32 degrees
+constexpr float kMinNormalCos = 0.85f;   // of a measured normal and the surface's: 32 degrees
 
 }  // namespace
 
@@ -157,7 +157,9 @@ class RayCast {
     const std::optional<Passage> passage = caster_.Cast(ray_O);
     const double z = observation_.image.DepthAt(u, v);
     if (!passage) {
-      if (z > 0 && Overhangs(z, ray_O)) evidence_.num_overhanging += evidence_.pixel_weight;
+      if (z > 0 && Overhangs(u, v, z, ray_O)) {
+        evidence_.num_overhanging += evidence_.pixel_weight;
+      }
       return;
     }
     if (z <= 0) {
@@ -195,11 +197,16 @@ class RayCast {
                                    static_cast<float>(distance)});
   }
 
-  bool Overhangs(double z, const Eigen::Vector3d& ray_O) const {
+  // The side of something that stands in front is no part of the top face.
+  bool Overhangs(int u, int v, double z, const Eigen::Vector3d& ray_O) const {
     const Eigen::Vector3d p_O = caster_.X_OC().translation() + z * ray_O;
     const auto overhang = caster_.OverhangOf(p_O, kTopTolerance);
-    return overhang && *overhang > 0 && *overhang < kMaxOverhang &&
-           Height(z, ray_O) > SurfaceTolerance(z);
+    if (!overhang || *overhang < 0 || *overhang > kMaxOverhang ||
+        Height(z, ray_O) < SurfaceTolerance(z)) {
+      return false;
+    }
+    const Eigen::Vector3f& n_C = observation_.normals.At(u, v);
+    return n_C.isZero() || (caster_.X_OC().linear() * n_C.cast<double>()).z() > kMinNormalCos;
   }
 
   // [m] above the support plane.
@@ -216,6 +223,12 @@ class RayCast {
 };
 
 }  // namespace
+
+double RayEvidence::Balance() const {
+  double fit = 0;
+  for (const ExplainedPixel& pixel : explained) fit += pixel.fit;
+  return pixel_weight * fit - num_violating - num_contradicting - num_overhanging;
+}
 
 double SurfaceTolerance(double z) { return std::max(0.005, 3 * MeasurementSigma(z)); }
 

@@ -85,6 +85,8 @@ struct RayEvidence {
   int num_unknown = 0;                    // not measured
 
   int num_explained() const { return pixel_weight * static_cast<int>(explained.size()); }
+  // [px] that speak for the solid, by how well they fit, less those that speak against it.
+  double Balance() const;
 };
 
 // Casts a ray through each observed pixel that can see the solid. Points within the noise of the

@@ -27,14 +27,25 @@ DepthImage Wall(int depth_mm) {
 // A support plane far behind everything.
 Plane FarPlane() { return {-Eigen::Vector3d::UnitZ(), 5.0}; }
 
+RayEvidence CastAt(const Solid& solid, const DepthImage& image, const Plane& support,
+                   int step = 1) {
+  const NormalImage normals(image);
+  return CastRays(solid, {image, normals, support, step});
+}
+
+// A ray of C in the frame of the solid.
+Eigen::Vector3d RayInO(const SolidCaster& caster, const Eigen::Vector3d& ray_C) {
+  return caster.X_OC().linear() * ray_C;
+}
+
 TEST(SolidCaster, MeetsABoxWhereItsFacesAre) {
   const SolidCaster caster(FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1}));
-  const auto passage = caster.Cast({0, 0, 1});
+  const auto passage = caster.Cast(RayInO(caster, {0, 0, 1}));
   ASSERT_TRUE(passage);
   EXPECT_NEAR(passage->z_in, 0.95, 1e-12);
   EXPECT_NEAR(passage->z_out, 1.05, 1e-12);
   EXPECT_TRUE(passage->through_top);
-  EXPECT_FALSE(caster.Cast({0.2, 0, 1}));
+  EXPECT_FALSE(caster.Cast(RayInO(caster, {0.2, 0, 1})));
 }
 
 TEST(SolidCaster, MeetsTheSideOfACylinder) {
@@ -43,7 +54,8 @@ TEST(SolidCaster, MeetsTheSideOfACylinder) {
   solid.X_CO.linear() = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX()).toRotationMatrix();
   solid.X_CO.translation() = Eigen::Vector3d(0, 0, 1);
   solid.size = Eigen::Vector3d(0.1, 0.1, 0.3);
-  const auto passage = SolidCaster(solid).Cast({0, 0, 1});
+  const SolidCaster caster(solid);
+  const auto passage = caster.Cast(RayInO(caster, {0, 0, 1}));
   ASSERT_TRUE(passage);
   EXPECT_NEAR(passage->z_in, 0.95, 1e-12);
   EXPECT_NEAR(passage->z_out, 1.05, 1e-12);
@@ -52,27 +64,29 @@ TEST(SolidCaster, MeetsTheSideOfACylinder) {
 
 TEST(SolidCaster, KnowsTheDistanceToItsSurface) {
   const SolidCaster box(FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1}));
-  EXPECT_NEAR(box.SignedDistance({0, 0, 1}), -0.05, 1e-12);
-  EXPECT_NEAR(box.SignedDistance({0, 0, 0.9}), 0.05, 1e-12);
-  EXPECT_NEAR(box.SignedDistance({0.13, 0, 0.91}), 0.05, 1e-12);  // 3-4-5 from the edge
+  EXPECT_NEAR(box.SignedDistance(box.X_OC() * Eigen::Vector3d{0, 0, 1}), -0.05, 1e-12);
+  EXPECT_NEAR(box.SignedDistance(box.X_OC() * Eigen::Vector3d{0, 0, 0.9}), 0.05, 1e-12);
+  EXPECT_NEAR(box.SignedDistance(box.X_OC() * Eigen::Vector3d{0.13, 0, 0.91}), 0.05,
+              1e-12);  // 3-4-5 from the edge
   const SolidCaster cylinder(FacingSolid(Shape::kCylinder, 1.0, {0.2, 0.2, 0.1}));
-  EXPECT_NEAR(cylinder.SignedDistance({0.06, 0.08, 1.0}), 0, 1e-12);
-  EXPECT_NEAR(cylinder.SignedDistance({0, 0, 0.93}), 0.02, 1e-12);
+  EXPECT_NEAR(cylinder.SignedDistance(cylinder.X_OC() * Eigen::Vector3d{0.06, 0.08, 1.0}), 0,
+              1e-12);
+  EXPECT_NEAR(cylinder.SignedDistance(cylinder.X_OC() * Eigen::Vector3d{0, 0, 0.93}), 0.02, 1e-12);
 }
 
 TEST(SolidCaster, GivesNoNormalWhereFacesMeet) {
   const SolidCaster box(FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1}));
-  const auto normal = box.NormalAt({0.05, 0.02, 0.95}, 0.01);
+  const auto normal = box.NormalAt(box.X_OC() * Eigen::Vector3d(0.05, 0.02, 0.95), 0.01);
   ASSERT_TRUE(normal);
-  EXPECT_NEAR(normal->z(), -1, 1e-12);
-  EXPECT_FALSE(box.NormalAt({0.095, 0.02, 0.95}, 0.01));
+  EXPECT_NEAR(normal->z(), 1, 1e-12);
+  EXPECT_FALSE(box.NormalAt(box.X_OC() * Eigen::Vector3d(0.095, 0.02, 0.95), 0.01));
 }
 
 TEST(CastRays, CountsWhatIsOnInFrontOfAndBehindTheSurface) {
   const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
   const auto cast = [&](int depth_mm) {
     const DepthImage image = Wall(depth_mm);
-    return CastRays(solid, image, NormalImage(image), FarPlane());
+    return CastAt(solid, image, FarPlane());
   };
   const RayEvidence on = cast(950);
   EXPECT_GT(on.explained.size(), 100u);
@@ -92,7 +106,7 @@ TEST(CastRays, CountsWhatIsOnInFrontOfAndBehindTheSurface) {
 TEST(CastRays, LooksIntoAnOpenCylinderWithoutBlame) {
   const Solid solid = FacingSolid(Shape::kCylinder, 1.0, {0.2, 0.2, 0.1});
   const DepthImage image = Wall(1020);
-  const RayEvidence evidence = CastRays(solid, image, NormalImage(image), FarPlane());
+  const RayEvidence evidence = CastAt(solid, image, FarPlane());
   EXPECT_GT(evidence.hollow.size(), 50u);
   EXPECT_EQ(evidence.num_violating, 0);
 }
@@ -101,7 +115,7 @@ TEST(CastRays, LeavesTheSupportPlaneToItself) {
   const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
   const DepthImage image = Wall(950);
   const Plane wall{-Eigen::Vector3d::UnitZ(), 0.95};
-  EXPECT_EQ(CastRays(solid, image, NormalImage(image), wall).explained.size(), 0u);
+  EXPECT_EQ(CastAt(solid, image, wall).explained.size(), 0u);
 }
 
 TEST(NormalImage, GivesTheNormalOfAPlaneAndNothingAtAJump) {
@@ -112,6 +126,21 @@ TEST(NormalImage, GivesTheNormalOfAPlaneAndNothingAtAJump) {
   const NormalImage normals(image);
   EXPECT_NEAR(normals.At(20, 24).z(), -1, 1e-3);
   EXPECT_TRUE(normals.At(39, 24).isZero());
+}
+
+TEST(CastRays, CountsATopFaceThatGoesOnBesideTheSolid) {
+  const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
+  EXPECT_GT(CastAt(solid, Wall(950), FarPlane()).num_overhanging, 20);
+  EXPECT_EQ(CastAt(solid, Wall(965), FarPlane()).num_overhanging, 0);
+}
+
+TEST(CastRays, CountsAboutTheSameAtEverySecondPixel) {
+  const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
+  const RayEvidence all = CastAt(solid, Wall(950), FarPlane());
+  const RayEvidence some = CastAt(solid, Wall(950), FarPlane(), 2);
+  EXPECT_EQ(some.pixel_weight, 4);
+  EXPECT_NEAR(some.num_explained(), all.num_explained(), 0.2 * all.num_explained());
+  EXPECT_NEAR(some.Balance(), all.Balance(), 0.2 * all.Balance());
 }
 
 }  // namespace

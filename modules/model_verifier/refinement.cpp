@@ -133,7 +133,7 @@ std::optional<double> AreaEnd(const std::vector<std::pair<double, double>>& samp
     }
   }
   if (num < kMinFacePoints / 2) return std::nullopt;
-  return begin + beyond_area / (reference_area / reference);
+  return std::min(begin + beyond_area / (reference_area / reference), edge + kMaxGrowth);
 }
 
 // The end of a box along one axis where its face is not seen: from the adjacent face with the most
@@ -152,7 +152,8 @@ std::optional<double> HiddenEnd(const std::vector<SurfacePoint>& points, const B
     }
     if (samples.size() > best.size()) best = std::move(samples);
   }
-  return AreaEnd(best, points.empty() ? 1 : points[0].num_px, half[hidden.axis], -half[hidden.axis]);
+  return AreaEnd(best, points.empty() ? 1 : points[0].num_px, half[hidden.axis],
+                 -half[hidden.axis]);
 }
 
 Solid RefineBox(Solid solid, const Observation& observation) {
@@ -243,6 +244,17 @@ Solid RefineCylinder(Solid solid, const Observation& observation) {
 Solid Refine(const Solid& solid, const Observation& observation) {
   return solid.shape == Shape::kBox ? RefineBox(solid, observation)
                                     : RefineCylinder(solid, observation);
+}
+
+void RefineIfNoWorse(const Observation& observation, Solid* solid, RayEvidence* evidence) {
+  constexpr double kMaxLoss = 0.02;  // of the explained pixels: noise of the balance
+  const Solid refined = Refine(*solid, observation);
+  RayEvidence refined_evidence = CastRays(refined, observation);
+  if (refined_evidence.Balance() < evidence->Balance() - kMaxLoss * evidence->num_explained()) {
+    return;
+  }
+  *solid = refined;
+  *evidence = std::move(refined_evidence);
 }
 
 }  // namespace declutter

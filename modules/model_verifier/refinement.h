@@ -12,4 +12,8 @@ namespace declutter {
 // value.
 Solid Refine(const Solid& solid, const Observation& observation);
 
+// Refines a solid where that does not lose what speaks for it: with few points, or little of a
+// cylinder's arc, a fit can go astray. evidence is that of the solid, and is renewed with it.
+void RefineIfNoWorse(const Observation& observation, Solid* solid, RayEvidence* evidence);
+
 }  // namespace declutter

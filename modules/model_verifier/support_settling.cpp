@@ -100,8 +100,7 @@ void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* 
       continue;
     }
     const RayEvidence seen = CastRays(upper.solid, observation);
-    const double max_violating =
-        seen.num_violating + kMaxNewViolating * seen.num_explained();
+    const double max_violating = seen.num_violating + kMaxNewViolating * seen.num_explained();
     for (const Floor& floor : floors) {
       const Solid extended = Extended(upper.solid, bottom, floor.height);
       if (&floor != &floors.back() && num_violating(extended) > max_violating) continue;

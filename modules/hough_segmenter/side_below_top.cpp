@@ -1,0 +1,85 @@
+#include <cmath>
+
+#include "modules/hough_segmenter/quantile.h"
+#include "modules/hough_segmenter/solid_completion.h"
+
+namespace declutter {
+namespace {
+
+constexpr float kMaxDistance = 0.005f;  // [m] of a point from the side
+constexpr float kMinCos = 0.7f;         // normals bend near outlines
+constexpr size_t kMinPoints = 25;       // [px] that show a side
+
+bool IsTopOnly(const Hypothesis& hypothesis) {
+  return hypothesis.solid.X_CO.linear().col(2).z() > 0.99 &&
+         hypothesis.solid.height() < 1.01 * static_cast<double>(kTopOnlyDepth);
+}
+
+// A standing solid seen from above, in its frame O.
+class Footprint {
+ public:
+  explicit Footprint(const Solid& solid)
+      : is_round_(solid.shape == Shape::kCylinder),
+        half_(0.5f * solid.size.head<2>().cast<float>()),
+        centre_(solid.X_CO.translation().head<2>().cast<float>()),
+        x_axis_(solid.X_CO.linear().col(0).head<2>().cast<float>()) {}
+
+  // True for a point on the side whose normal, as far as it is horizontal, is that of the side.
+  bool IsOnSide(const TablePoint& point) const {
+    const float tolerance = std::max(kMaxDistance, 2.5f * point.sigma);
+    const Eigen::Vector2f p = ToO(point.p_T.head<2>() - centre_);
+    const Eigen::Vector2f n = ToO(point.n_T.head<2>()).normalized();
+    if (is_round_) {
+      const float distance = p.norm();
+      return std::abs(distance - half_.x()) < tolerance && n.dot(p) > kMinCos * distance;
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+      if (std::abs(std::abs(p[axis]) - half_[axis]) < tolerance &&
+          std::abs(p[1 - axis]) < half_[1 - axis] &&
+          std::copysign(1.0f, p[axis]) * n[axis] > kMinCos) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  Eigen::Vector2f ToO(const Eigen::Vector2f& x_T) const {
+    return {x_axis_.dot(x_T), x_axis_.x() * x_T.y() - x_axis_.y() * x_T.x()};
+  }
+
+  bool is_round_;
+  Eigen::Vector2f half_;
+  Eigen::Vector2f centre_;
+  Eigen::Vector2f x_axis_;
+};
+
+}  // namespace
+
+void AddSidesBelowTops(const std::vector<TablePoint>& points, std::vector<Hypothesis>* hypotheses) {
+  std::vector<const TablePoint*> side_points;
+  for (const TablePoint& point : points) {
+    if (point.is_side()) side_points.push_back(&point);
+  }
+  const size_t num = hypotheses->size();
+  for (size_t i = 0; i < num; ++i) {
+    if (!IsTopOnly((*hypotheses)[i])) continue;
+    Hypothesis taller = (*hypotheses)[i];
+    const auto top =
+        static_cast<float>(taller.solid.X_CO.translation().z() + 0.5 * taller.solid.height());
+    const Footprint footprint(taller.solid);
+    std::vector<float> heights;
+    for (const TablePoint* point : side_points) {
+      if (point->p_T.z() < top && footprint.IsOnSide(*point)) heights.push_back(point->p_T.z());
+    }
+    if (heights.size() < kMinPoints) continue;
+    taller.num_inliers += static_cast<int>(heights.size());
+    const float bottom = BottomOf(Quantile(&heights, 0.02));
+    taller.solid.X_CO.translation().z() = 0.5 * static_cast<double>(top + bottom);
+    taller.solid.size.z() = static_cast<double>(top - bottom);
+    taller.evidence[2] = bottom > 0 ? Evidence::kAssumed : Evidence::kObserved;
+    hypotheses->push_back(taller);
+  }
+}
+
+}  // namespace declutter
