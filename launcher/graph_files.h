@@ -48,6 +48,7 @@ class GraphFiles {
   const std::vector<MergedModule>& modules() const { return modules_; }
 
   bool lossless() const { return lossless_; }
+  const std::optional<Logger>& logger() const { return logger_; }
 
  private:
   void ReadFile(const std::string& path, const std::string& where,
@@ -59,6 +60,7 @@ class GraphFiles {
   std::vector<std::unique_ptr<GraphText>> files_;  // included before including
   std::vector<MergedModule> modules_;
   bool lossless_ = false;
+  std::optional<Logger> logger_;
 };
 
 }  // namespace declutter::launcher

@@ -26,7 +26,7 @@ class GraphLoader {
   bool CheckModules();
   bool ReadConfigs(const std::vector<std::string>& assignments);
   bool CheckChannels();
-  ResolvedGraph Resolve() const;
+  ResolvedGraph Resolve();
 
  private:
   bool CheckName(const MergedModule& module);
@@ -150,9 +150,10 @@ bool GraphLoader::CheckChannels() {
   return faults_->empty();
 }
 
-ResolvedGraph GraphLoader::Resolve() const {
+ResolvedGraph GraphLoader::Resolve() {
   ResolvedGraph resolved;
   resolved.lossless = files_.lossless();
+  resolved.logger = files_.logger();
   TextFormat::Printer printer;
   printer.SetExpandAny(true);
   printer.SetFinder(&catalog_);
@@ -165,8 +166,8 @@ ResolvedGraph GraphLoader::Resolve() const {
     std::string text, config_text;
     printer.PrintToString(block, &text);
     printer.PrintToString(*configs_[i], &config_text);
-    resolved.modules.push_back(
-        {*module, text, config_text, wiring_[i], FindMissing(modules()[i], *configs_[i])});
+    resolved.modules.push_back({*module, text, description(i).version(), config_text, wiring_[i],
+                                FindMissing(modules()[i], *configs_[i])});
   }
   return resolved;
 }

@@ -55,6 +55,7 @@ ReplayPlan PlanReplay(const std::string& log, const std::string& from, ResolvedG
   }
   graph->modules = std::move(kept);
   graph->lossless = true;
+  graph->logger.reset();
 
   ReplayPlan plan{log, {}, {}};
   std::set<std::string> objects;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +13,7 @@ namespace declutter::launcher {
 struct ResolvedModule {
   Module module;            // program an absolute path
   std::string text;         // its block of a graph file
+  std::string version;      // of the program
   std::string config_text;  // its parameters as protobuf text, all layers merged
   WiredModule wiring;
   std::vector<Fault> missing;  // parameters that a run needs and nothing sets
@@ -22,10 +23,12 @@ struct ResolvedModule {
 struct ResolvedGraph {
   bool lossless = false;
   std::vector<ResolvedModule> modules;
+  std::optional<Logger> logger;
 
   // The whole as a graph file.
   std::string Text() const {
     std::string text = lossless ? "lossless: true\n" : "lossless: false\n";
+    if (logger) text += "logger {\n" + logger->DebugString() + "}\n";
     for (const ResolvedModule& module : modules) text += module.text;
     return text;
   }

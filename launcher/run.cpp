@@ -2,6 +2,7 @@
 
 #include <signal.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -73,15 +74,51 @@ std::string HeardChannels(const RunOptions& options) {
   return "(" + pattern + ")";
 }
 
-std::unique_ptr<Process> MakeRecorder(const RunOptions& options, const RunFolder& folder,
+run_info_t InfoOf(const ResolvedGraph& graph) {
+  run_info_t info = {};
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  info.utime = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+  for (const ResolvedModule& module : graph.modules) {
+    info.versions += module.module.program() + " " + module.version + "\n";
+  }
+  info.graph = graph.Text();
+  return info;
+}
+
+// Where this run is recorded to; nothing when it is not.
+std::optional<Recording> PlanRecording(const ResolvedGraph& graph, const RunOptions& options,
+                                       const RunFolder& folder) {
+  if (!options.record.empty()) return Recording{options.record};
+  if (!graph.logger) return std::nullopt;
+  return Recording{folder.path() + "/" + graph.logger->name() + ".lcmlog", true,
+                   graph.logger->min_free_mb()};
+}
+
+std::unique_ptr<Process> MakeRecorder(const Recording& recording, const ResolvedGraph& graph,
+                                      const RunOptions& options, const RunFolder& folder,
                                       Wire* wire) {
   const auto logger = FindProgram(kLogger);
   if (!logger) throw std::runtime_error(std::string(kLogger) + " is not installed");
+  CheckFreeSpace(recording);
   LaunchPlan plan;
-  // Of its flags only the long ones with = are read as documented.
-  plan.command = {*logger, "--quiet", "--lcm-url=" + options.url, options.record};
+  // Of its flags only the long ones with = are read as documented, of -i only the short one.
+  plan.command = {*logger, "--quiet", "--lcm-url=" + options.url};
+  if (recording.is_split) {
+    plan.command.push_back("-i");
+    plan.command.push_back("--split-mb=" + std::to_string(graph.logger->split_mb()));
+  }
+  plan.command.push_back(recording.path);
   plan.log_path = folder.LogPath(kLogger);
-  return std::make_unique<Recorder>(std::move(plan), options.record, wire);
+  return std::make_unique<Recorder>(std::move(plan), recording, InfoOf(graph), wire);
+}
+
+// What --record asks for is the purpose of a run; a logger in the graph is its companion.
+Node PlanRecorder(const RunOptions& options) {
+  Node node{kLogger, {}};
+  if (!options.record.empty()) return node;
+  node.is_required = false;
+  node.restart.when = RestartRule::When::kOnFailure;
+  return node;
 }
 
 class ModuleMaker : public SuccessorMaker {
@@ -114,11 +151,11 @@ class ModuleMaker : public SuccessorMaker {
 }  // namespace
 
 std::vector<Node> PlanNodes(const ResolvedGraph& graph, const RunOptions& options) {
-  const bool has_recorder = !options.record.empty();
+  const bool has_recorder = !options.record.empty() || graph.logger;
   std::vector<WiredModule> wiring;
   for (const ResolvedModule& resolved : graph.modules) wiring.push_back(resolved.wiring);
   std::vector<Node> nodes;
-  if (has_recorder) nodes.push_back({kLogger, {}});
+  if (has_recorder) nodes.push_back(PlanRecorder(options));
   for (size_t i = 0; i < graph.modules.size(); ++i) {
     const Module& module = graph.modules[i].module;
     Node node = PlanNode(module);
@@ -154,7 +191,9 @@ int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
     const std::string& name = resolved.module.name();
     processes[name] = MakeModule(resolved.module, folder.ConfigPath(name), graph.lossless, folder);
   }
-  if (!options.record.empty()) processes[kLogger] = MakeRecorder(options, folder, &wire);
+  if (const auto recording = PlanRecording(graph, options, folder)) {
+    processes[kLogger] = MakeRecorder(*recording, graph, options, folder, &wire);
+  }
   if (options.replay) processes[kFeeder] = std::make_unique<LogFeeder>(*options.replay, &wire);
   Supervisor supervisor(PlanNodes(graph, options), graph.lossless);
   ControlSocket control(folder.path());

@@ -54,11 +54,4 @@ std::optional<module_status_t> DecodeStatus(const Message& message) {
   return status;
 }
 
-Message EncodeStatus(const module_status_t& status) {
-  Message message{kModuleStatus.name,
-                  std::vector<uint8_t>(static_cast<size_t>(status.getEncodedSize()))};
-  status.encode(message.bytes.data(), 0, static_cast<int>(message.bytes.size()));
-  return message;
-}
-
 }  // namespace declutter::launcher

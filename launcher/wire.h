@@ -48,6 +48,11 @@ class Wire {
 // Nothing when the message is no status, whatever else it may be.
 std::optional<module_status_t> DecodeStatus(const Message& message);
 
-Message EncodeStatus(const module_status_t& status);
+template <typename Type>
+Message Encode(const Channel<Type>& channel, const Type& value) {
+  Message message{channel.name, std::vector<uint8_t>(static_cast<size_t>(value.getEncodedSize()))};
+  value.encode(message.bytes.data(), 0, static_cast<int>(message.bytes.size()));
+  return message;
+}
 
 }  // namespace declutter::launcher

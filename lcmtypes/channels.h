@@ -6,6 +6,7 @@
 #include "declutter/hypothesis_list_t.hpp"
 #include "declutter/module_status_t.hpp"
 #include "declutter/object_list_t.hpp"
+#include "declutter/run_info_t.hpp"
 #include "declutter/tabletop_t.hpp"
 
 namespace declutter {
@@ -23,5 +24,6 @@ inline constexpr Channel<feature_cloud_t> kFeatures{"FEATURES"};
 inline constexpr Channel<hypothesis_list_t> kHypotheses{"HYPOTHESES"};
 inline constexpr Channel<object_list_t> kObjects{"OBJECTS"};
 inline constexpr Channel<module_status_t> kModuleStatus{"MODULE_STATUS"};
+inline constexpr Channel<run_info_t> kRunInfo{"RUN_INFO"};
 
 }  // namespace declutter

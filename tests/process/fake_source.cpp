@@ -26,6 +26,8 @@ class FakeSource {
     }
     depth_frame_t frame = {};
     frame.utime = ++sent_;
+    frame.num_bytes = config_.num_bytes();
+    frame.data.resize(static_cast<size_t>(config_.num_bytes()));
     depth_.Publish(frame);
     return is_camera ? config_.period_s() : 0.01;
   }
