@@ -178,8 +178,8 @@ int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
   RunOptions options = requested;
   if (options.url.empty()) options.url = ChooseUrl();
   if (options.is_isolated) Isolate();
-  EnsureMulticast(options.url);
   const UrlClaim claim(options.url);
+  EnsureMulticast(options.url);
   setenv("LCM_DEFAULT_URL", options.url.c_str(), 1);
   const RunFolder folder(options.logs, graph);
   HoldSignals();
