@@ -39,6 +39,9 @@ constexpr const char* kHelp = R"(launcher: runs a graph of modules
   launcher logs MODULE [--follow]
       What it has printed.
 
+  launcher doctor [--log_dir DIR]
+      Looks at what a run needs from this machine, and tells what mends what is missing.
+
   run ends with 0 when all went well, also when a signal ends a live graph; with 128 + the signal's
   number when it cuts a lossless graph short; else with the code of the first required module that
   failed (1: failure or crash, 2: bad configuration).
@@ -61,6 +64,7 @@ const std::vector<VerbRule>& VerbRules() {
       {"swap",
        Verb::kSwap,
        {{"a module", &CommandLine::module}, {"a program", &CommandLine::program}}},
+      {"doctor", Verb::kDoctor, {}},
       {"logs", Verb::kLogs, {{"a module", &CommandLine::module}}},
   };
   return rules;
@@ -100,7 +104,7 @@ const std::vector<Option>& Options() {
       Once("--url", run, &CommandLine::url),
       {"--isolate", run, [](const std::string&, CommandLine* line) { line->is_isolated = true; },
        false},
-      Once("--log_dir", run, &CommandLine::logs),
+      Once("--log_dir", {Verb::kRun, Verb::kDoctor}, &CommandLine::logs),
       Once("--run", asking, &CommandLine::run_folder),
       {"--dot",
        {Verb::kCheck},

@@ -8,7 +8,7 @@
 namespace declutter::launcher {
 
 struct CommandLine {
-  enum class Verb { kHelp, kCheck, kRun, kStatus, kStart, kStop, kRestart, kSwap, kLogs };
+  enum class Verb { kHelp, kCheck, kRun, kStatus, kStart, kStop, kRestart, kSwap, kLogs, kDoctor };
 
   Verb verb = Verb::kHelp;
   std::string word;                      // the verb as written

@@ -9,6 +9,7 @@
 
 #include "launcher/ask.h"
 #include "launcher/command_line.h"
+#include "launcher/doctor.h"
 #include "launcher/dot.h"
 #include "launcher/find_program.h"
 #include "launcher/load_graph.h"
@@ -22,12 +23,14 @@ namespace {
 constexpr int kFailure = 1;
 constexpr int kBadConfig = 2;
 
+std::string DefaultLogs() { return OwnFolder() + "/../../logs"; }
+
 int Run(const CommandLine& line, ResolvedGraph graph) {
   const char* environment_url = std::getenv("LCM_DEFAULT_URL");
   RunOptions options{line.url, line.record, line.logs};
   options.is_isolated = line.is_isolated;
   if (options.url.empty() && environment_url != nullptr) options.url = environment_url;
-  if (options.logs.empty()) options.logs = OwnFolder() + "/../../logs";
+  if (options.logs.empty()) options.logs = DefaultLogs();
   Select(line.only, line.without, &graph);
   if (!line.replay.empty()) options.replay = PlanReplay(line.replay, line.from, &graph);
   bool is_complete = true;
@@ -71,6 +74,8 @@ int Act(const std::vector<std::string>& arguments) {
       return ShowLog(line);
     case Verb::kSwap:
       return Swap(line);
+    case Verb::kDoctor:
+      return Examine(line.logs.empty() ? DefaultLogs() : line.logs);
     case Verb::kStart:
     case Verb::kStop:
     case Verb::kRestart:

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <vector>
 
@@ -78,14 +79,18 @@ bool PassesSelfTest(const std::string& url) {
   return num_received > 0;
 }
 
-// In a child, as LCM starts threads, which bar the way into a user namespace, and prints.
-bool CarriesMessages(const std::string& url) {
+// What a child that is silent says to it; false when it throws.
+bool Succeeds(const std::function<bool()>& attempt) {
   const pid_t pid = fork();
   if (pid < 0) throw std::runtime_error(std::string("fork: ") + strerror(errno));
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
-    _exit(PassesSelfTest(url) ? 0 : 1);
+    try {
+      _exit(attempt() ? 0 : 1);
+    } catch (const std::exception&) {
+      _exit(1);
+    }
   }
   int status = 0;
   waitpid(pid, &status, 0);
@@ -141,6 +146,18 @@ std::string ChooseUrl() {
   }
   return std::string("udpm://") + kMulticastAddress + ":" + std::to_string(port) +
          "?ttl=0&recv_buf_size=" + std::to_string(std::min(max_buffer, kMaxReceiveBuffer));
+}
+
+// In a child, as LCM starts threads, which bar the way into a user namespace, and prints.
+bool CarriesMessages(const std::string& url) {
+  return Succeeds([&url] { return PassesSelfTest(url); });
+}
+
+bool CanIsolate() {
+  return Succeeds([] {
+    Isolate();
+    return true;
+  });
 }
 
 void Isolate() {

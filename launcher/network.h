@@ -14,6 +14,12 @@ std::string ChooseUrl();
 // later inherits it. Needs a process of one thread. Throws std::runtime_error with what was tried.
 void EnsureMulticast(const std::string& url);
 
+// True when a message of 150 KB arrives over url.
+bool CarriesMessages(const std::string& url);
+
+// True when this user may make a network of his own.
+bool CanIsolate();
+
 // Moves this process into a network of its own in any case. As above.
 void Isolate();
 

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <unistd.h>
 
 #include "tests/process/fake_graph.h"
 #include "tests/process/launched.h"
@@ -155,6 +157,24 @@ TEST_F(CheckTest, NamesTheAssignmentThatIsWrong) {
             "--set source.num_frames=-1: num_frames = -1 outside [0, 100000]\n");
   EXPECT_THAT(error("source.num_frames=many"), StartsWith("--set source.num_frames=many: "));
   EXPECT_EQ(error("source"), "--set source: not of the form module.field=value\n");
+}
+
+TEST_F(CheckTest, ExaminesTheMachine) {
+  const Outcome outcome = RunLauncher({"doctor", "--log_dir", folder_.Path("logs")}, folder_);
+  EXPECT_EQ(outcome.code, 0) << outcome.out;
+  for (const char* subject : {"multicast: ", "receive buffer: ", "disk: ", "clock: ",
+                              "lcm-logger: ", "sensors:", "packages:"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(subject));
+  }
+}
+
+TEST_F(CheckTest, NamesTheMendWhereThereIsNoMulticast) {
+  const auto leave_network = [] {
+    if (unshare(CLONE_NEWNET) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) _exit(99);
+  };
+  const Outcome outcome = Launched({LAUNCHER, "doctor"}, folder_, leave_network).Wait();
+  if (outcome.code == 99) GTEST_SKIP() << "no network namespaces here";
+  EXPECT_THAT(outcome.out, HasSubstr("mend: sudo ip link set lo up; sudo ip route add"));
 }
 
 TEST_F(CheckTest, RefusesUnknownVerbsAndOptions) {
