@@ -6,6 +6,7 @@ find_package(GTest REQUIRED)
 find_package(PNG REQUIRED)
 find_package(Threads REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(yaml-cpp REQUIRED)
 find_package(OpenMP REQUIRED)
 find_package(benchmark REQUIRED)
 

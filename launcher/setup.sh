@@ -11,7 +11,7 @@ packages=(
   libprotobuf-dev protobuf-compiler  # parameters
   libeigen3-dev libpcl-dev
   libopenni2-dev                     # depth sensors and .oni files
-  libpng-dev libturbojpeg0-dev libzstd-dev nlohmann-json3-dev
+  libpng-dev libturbojpeg0-dev libzstd-dev nlohmann-json3-dev libyaml-cpp-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 

@@ -11,16 +11,6 @@
 // what is wrong with it.
 namespace declutter {
 
-// A camera as written in a scene.json or an intrinsics file.
-struct CameraFile {
-  PinholeCamera camera;
-  std::optional<double> depth_scale_m;  // [m] per count
-};
-
-// Reads width, height, fx, fy, cx, cy and, when it is there, depth_scale_m from a JSON object; all
-// other keys are ignored.
-CameraFile ReadCameraFile(const std::filesystem::path& path);
-
 // Reads a 16-bit grey PNG, which must have the size of `camera`.
 DepthImage ReadDepthImage(const std::filesystem::path& path, const PinholeCamera& camera,
                           double depth_scale_m);

@@ -7,8 +7,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "modules/kinect_source/camera_file.h"
 #include "modules/kinect_source/file_listing.h"
 #include "modules/kinect_source/frame_files.h"
+#include "modules/kinect_source/rectification.h"
 
 namespace declutter {
 namespace {
@@ -122,15 +124,19 @@ std::vector<RecordingEntry> ListPngSequence(const fs::path& input,
   if (depths.empty()) return {};
   const CameraFile file = ReadCamera(IntrinsicsPath(input, intrinsics_file));
   const double depth_scale_m = file.depth_scale_m.value_or(kTumDepthScaleM);
+  const auto rectification = RectificationOf(file);
   const std::vector<TimedFile> colors = ListImages(input, "rgb");
   SetTimes(&depths);
   std::vector<RecordingEntry> entries;
   for (const TimedFile& depth : depths) {
     const fs::path color = FindColor(depth, colors);
-    const auto load = [path = depth.path, color, camera = file.camera, depth_scale_m] {
+    const auto load = [path = depth.path, color, camera = file.camera, depth_scale_m,
+                       rectification] {
       FrameContent content;
       content.depth = ReadDepthImage(path, camera, depth_scale_m);
       if (!color.empty()) ReadColorImage(color, &content);
+      if (rectification) rectification->Apply(&content.depth);
+      if (rectification && content.color) rectification->Apply(&*content.color);
       return content;
     };
     entries.push_back({depth.path.stem().string(), *depth.utime, load});

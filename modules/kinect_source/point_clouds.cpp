@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "modules/kinect_source/camera_file.h"
 #include "modules/kinect_source/file_listing.h"
 #include "modules/kinect_source/frame_files.h"
 #include "modules/kinect_source/pcd_file.h"

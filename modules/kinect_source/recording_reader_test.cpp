@@ -160,7 +160,7 @@ TEST_F(RecordingReaderTest, ReportsWhatIsWrongInSceneJson) {
   EXPECT_EQ(error_for(R"({"width": "3"})"), "scene.json: width is not a number");
   EXPECT_EQ(error_for(R"({"width": 2.5})"), "scene.json: width is not a whole number");
   EXPECT_EQ(error_for(R"({"width": -3})"), "scene.json: width = -3 outside [1, 4096]");
-  EXPECT_EQ(error_for(R"({"width": 3, "height": 2, "fx": 0})"),
+  EXPECT_EQ(error_for(R"({"width": 3, "height": 2, "fx": 0, "fy": 1, "cx": 0, "cy": 0})"),
             "scene.json: fx = 0 outside [1, 1e+06]");
   EXPECT_EQ(error_for(R"({"width": 3, "height": 2, "fx": 1, "fy": 1, "cx": 1, "cy": 1})"),
             "scene.json: depth_scale_m is missing");

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "modules/kinect_source/camera_file.h"
 #include "modules/kinect_source/frame_files.h"
 
 namespace declutter {

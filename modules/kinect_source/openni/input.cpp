@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "modules/kinect_source/calibration.h"
 #include "modules/kinect_source/openni/oni_reader.h"
 #include "modules/kinect_source/openni/session.h"
 #include "modules/kinect_source/recording_reader.h"
@@ -21,7 +22,7 @@ bool IsLive(const std::string& input) { return input == kLive || input.rfind(kLi
 
 bool IsOniFile(const std::string& input) { return fs::path(input).extension() == ".oni"; }
 
-SensorRequest RequestOf(const KinectSourceConfig& config) {
+SensorRequest RequestOf(const KinectSourceConfig& config, const Calibration& calibration) {
   if ((config.width() > 0) != (config.height() > 0)) {
     throw std::invalid_argument("width and height: both or none");
   }
@@ -29,6 +30,10 @@ SensorRequest RequestOf(const KinectSourceConfig& config) {
   SensorRequest request;
   request.width = config.width();
   request.height = config.height();
+  if (request.width == 0 && calibration.file()) {
+    request.width = calibration.file()->camera.width;
+    request.height = calibration.file()->camera.height;
+  }
   request.rate_hz = static_cast<int>(std::lround(rate_hz));
   request.color = config.color();
   request.auto_exposure = config.auto_exposure();
@@ -63,9 +68,10 @@ Input RecordingInput(std::shared_ptr<Reader> reader) {
   return {KinectSource::Input::kRecording, read};
 }
 
-Input LiveInput(const KinectSourceConfig& config, LiveReader::Now now_us, SensorEvents events) {
+Input LiveInput(const KinectSourceConfig& config, const Calibration& calibration,
+                LiveReader::Now now_us, SensorEvents events) {
   const auto session = std::make_shared<OpenniSession>();
-  SensorRequest request = RequestOf(config);
+  SensorRequest request = RequestOf(config, calibration);
   if (config.input() != kLive) request.device = config.input().substr(kLive.size() + 1);
   const auto open = [session, request, num_opened = 0]() mutable {
     SensorRequest numbered = request;
@@ -78,9 +84,9 @@ Input LiveInput(const KinectSourceConfig& config, LiveReader::Now now_us, Sensor
   return {KinectSource::Input::kSensor, [session, reader] { return reader->Read(); }};
 }
 
-Input OniInput(const KinectSourceConfig& config) {
+Input OniInput(const KinectSourceConfig& config, const Calibration& calibration) {
   const auto session = std::make_shared<OpenniSession>();
-  SensorRequest request = RequestOf(config);
+  SensorRequest request = RequestOf(config, calibration);
   request.device = config.input();
   request.rate_hz = 0;  // at which it was recorded; rate_hz is that of playing it
   try {
@@ -92,15 +98,30 @@ Input OniInput(const KinectSourceConfig& config) {
   }
 }
 
-}  // namespace
-
-Input OpenInput(const KinectSourceConfig& config, LiveReader::Now now_us, SensorEvents events) {
-  if (IsLive(config.input())) return LiveInput(config, std::move(now_us), std::move(events));
+Input OpenUncalibrated(const KinectSourceConfig& config, const Calibration& calibration,
+                       LiveReader::Now now_us, SensorEvents events) {
+  if (IsLive(config.input())) {
+    return LiveInput(config, calibration, std::move(now_us), std::move(events));
+  }
   if (!config.record_oni().empty()) {
     throw std::invalid_argument("record_oni: only a live sensor can be recorded");
   }
-  if (IsOniFile(config.input())) return OniInput(config);
+  if (IsOniFile(config.input())) return OniInput(config, calibration);
   return RecordingInput(std::make_shared<RecordingReader>(config));
+}
+
+}  // namespace
+
+Input OpenInput(const KinectSourceConfig& config, LiveReader::Now now_us, SensorEvents events) {
+  const bool has_intrinsics = !IsLive(config.input()) && !IsOniFile(config.input());
+  const auto calibration = std::make_shared<Calibration>(config, has_intrinsics);
+  const Input raw = OpenUncalibrated(config, *calibration, std::move(now_us), std::move(events));
+  const auto read = [calibration, read_raw = raw.read] {
+    ReadResult result = read_raw();
+    if (result.frame) calibration->Apply(&*result.frame);
+    return result;
+  };
+  return {raw.kind, read};
 }
 
 }  // namespace declutter

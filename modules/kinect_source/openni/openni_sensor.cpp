@@ -29,6 +29,13 @@ std::string ModeText(const SensorRequest& request) {
   return text.empty() ? "its default mode" : text;
 }
 
+// The player of a file crashes when the file is closed before the player has begun to play.
+void LetPlayerBegin() {
+  constexpr int kLongEnough_ms = 500;
+  int ignored = 0;
+  openni::OpenNI::waitForAnyStream(nullptr, 0, &ignored, kLongEnough_ms);
+}
+
 bool Fits(const VideoMode& mode, int width, int height, int rate_hz) {
   return IsReadable(mode) && (width == 0 || mode.getResolutionX() == width) &&
          (height == 0 || mode.getResolutionY() == height) &&
@@ -60,17 +67,17 @@ OpenniSensor::OpenniSensor(const std::string& uri, const SensorRequest& request)
   if (device_.open(uri.c_str()) != STATUS_OK) {
     throw NoSensor(uri + ": cannot be opened: " + OpenniError());
   }
-  OpenDepth(request);
-  if (request.color) OpenColor(request);
-  if (device_.isFile()) ReadOnDemand();
-  if (!request.record_oni.empty()) Record(request.record_oni);
-  openni::OpenNI::addDeviceDisconnectedListener(this);
   try {
+    OpenDepth(request);
+    if (request.color) OpenColor(request);
+    if (device_.isFile()) ReadOnDemand();
+    if (!request.record_oni.empty()) Record(request.record_oni);
     Start();
   } catch (...) {
-    openni::OpenNI::removeDeviceDisconnectedListener(this);
+    if (device_.isFile()) LetPlayerBegin();
     throw;
   }
+  openni::OpenNI::addDeviceDisconnectedListener(this);
 }
 
 OpenniSensor::~OpenniSensor() {
