@@ -4,6 +4,13 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 ./launcher/setup.sh
+export DECLUTTER_SOAK=1  # what sensor_test looks at
+
+# 60 s of a sensor at 30 Hz.
+thirty_hertz() { build/bin/sensor_test --gtest_filter='*HoldsThirtyFramesASecond'; }
+
+# A sensor unplugged 100 times.
+unplugged() { build/bin/sensor_test --gtest_filter='*SurvivesBeingUnpluggedAgainAndAgain'; }
 
 # kill -9, 100 times each, of what a robot runs.
 killed_modules() {
@@ -16,7 +23,7 @@ killed_logger() { tests/soak_kills.sh 100 logger; }
 killed_launcher() { tests/soak_kills.sh 100 launcher; }
 
 soaks=("$@")
-(($# > 0)) || soaks=(killed_modules killed_logger killed_launcher)
+(($# > 0)) || soaks=(thirty_hertz unplugged killed_modules killed_logger killed_launcher)
 for soak in "${soaks[@]}"; do
   declare -F "$soak" >/dev/null || { echo "soak.sh: no soak $soak" >&2; exit 2; }
 done

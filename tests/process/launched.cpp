@@ -78,8 +78,11 @@ std::vector<pid_t> ProcessesWith(const std::string& word) {
   for (const auto& entry : fs::directory_iterator("/proc")) {
     const std::string number = entry.path().filename();
     if (!std::all_of(number.begin(), number.end(), ::isdigit)) continue;
-    const std::string command = ReadFile(entry.path() / "cmdline");  // empty for a zombie
-    if (command.find(word) != std::string::npos) found.push_back(std::stoi(number));
+    try {
+      const std::string command = ReadFile(entry.path() / "cmdline");  // empty for a zombie
+      if (command.find(word) != std::string::npos) found.push_back(std::stoi(number));
+    } catch (const std::ios_base::failure&) {  // it has ended
+    }
   }
   return found;
 }

@@ -50,8 +50,16 @@ class SensorRun : public testing::Test {
                              "module { name: \"kinect_source\" config {\n"
                              "[type.googleapis.com/declutter.KinectSourceConfig] { input: \"" +
                              input + "\" " + parameters +
-                             " } } }\nmodule { name: \"filter\" program: \"" + Fake("fake_filter") +
+                             " } } }\nmodule { name: \"filter\" program: \"" + OwnFilter() +
                              "\" }\n");
+  }
+
+  // By a name of its own: other tests, at the same time, look for processes by theirs.
+  std::string OwnFilter() const {
+    const std::string path = folder_.Path("filter");
+    std::filesystem::remove(path);
+    std::filesystem::create_symlink(Fake("fake_filter"), path);
+    return path;
   }
 
   SensorLog ReadLog() const {

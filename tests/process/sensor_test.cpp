@@ -1,7 +1,10 @@
+#include <OpenNI.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <set>
 
@@ -13,6 +16,11 @@ namespace declutter {
 namespace {
 
 using ::testing::HasSubstr;
+
+// How long a test lasts: long in tests/soak.sh.
+int ShortOrSoak(int brief, int soak) {
+  return std::getenv("DECLUTTER_SOAK") == nullptr ? brief : soak;
+}
 
 class SensorTest : public SensorRun {
  protected:
@@ -77,33 +85,41 @@ TEST_F(SensorTest, ReadsTheSizeAskedFor) {
 
 // With room for a machine that is busy with other things.
 TEST_F(SensorTest, HoldsThirtyFramesASecond) {
-  const Outcome outcome = Run(Live(WriteSensor("", "")), "num_frames: 300");
+  const int num_frames = ShortOrSoak(300, 1800);
+  const Outcome outcome =
+      Run(Live(WriteSensor("", "")), "num_frames: " + std::to_string(num_frames));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const SensorLog log = ReadLog();
-  ASSERT_GE(log.depth.size(), 290u);  // what was lost on the way to the recorder
+  ASSERT_GE(log.depth.size(), num_frames * 0.97);  // what was lost on the way to the recorder
   for (size_t i = 1; i < log.depth.size(); ++i) {
     EXPECT_GT(log.depth[i].header.utime, log.depth[i - 1].header.utime);
   }
-  const auto& last = log.statuses.back().content;
-  EXPECT_LE(last.num_skipped, 15);
+  const int64_t num_skipped = log.statuses.back().content.num_skipped;
+  EXPECT_LE(num_skipped, num_frames * 0.01 * ShortOrSoak(30, 5));
   const double duration_s =
       1e-6 * static_cast<double>(log.depth.back().header.utime - log.depth.front().header.utime);
-  EXPECT_NEAR(duration_s, 299 / 30.0, 0.6);
+  // Timestamps are late by at most what the first frame was late.
+  EXPECT_NEAR(duration_s, static_cast<double>(num_frames - 1 + num_skipped) / 30, 2);
+  std::printf("%zu frames in %.2f s, %lld skipped\n", log.depth.size(), duration_s,
+              static_cast<long long>(num_skipped));
 }
 
 TEST_F(SensorTest, SurvivesBeingUnpluggedAgainAndAgain) {
   const std::string sensor =
       WriteSensor("fault { kind: \"unplug\" begin: 30 num_periods: 45 } repeat_after: 75");
-  const Outcome outcome = Run(Live(sensor), "num_frames: 90 warm_up_frames: 0");
+  const int num_cycles = ShortOrSoak(3, 100);
+  const Outcome outcome =
+      Run(Live(sensor), "warm_up_frames: 0 num_frames: " + std::to_string(30 * num_cycles));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const SensorLog log = ReadLog();
-  ASSERT_GE(log.depth.size(), 85u);
   int num_gaps = 0;
+  double longest_gap_s = 0, latest_report_s = 0;
   for (size_t i = 1; i < log.depth.size(); ++i) {
     const int64_t gap_us = log.depth[i].header.utime - log.depth[i - 1].header.utime;
     EXPECT_GT(gap_us, 0);
     if (gap_us < 1'000'000) continue;
     ++num_gaps;
+    longest_gap_s = std::max(longest_gap_s, 1e-6 * static_cast<double>(gap_us));
     const int64_t lost_us = log.depth_logged_us[i - 1];
     const auto reported = std::find_if(
         log.statuses.begin(), log.statuses.end(), [lost_us](const SensorLog::Status& status) {
@@ -111,9 +127,13 @@ TEST_F(SensorTest, SurvivesBeingUnpluggedAgainAndAgain) {
                  status.content.message.find("no sensor") != std::string::npos;
         });
     ASSERT_NE(reported, log.statuses.end());
-    EXPECT_LT(reported->logged_us - lost_us, 2'000'000);
+    const double report_s = 1e-6 * static_cast<double>(reported->logged_us - lost_us);
+    EXPECT_LT(report_s, 2);
+    latest_report_s = std::max(latest_report_s, report_s);
   }
-  EXPECT_GE(num_gaps, 3);
+  EXPECT_GE(num_gaps, num_cycles);
+  std::printf("unplugged %d times for 1.5 s: reported within %.2f s, frames again after %.2f s\n",
+              num_gaps, latest_report_s, longest_gap_s);
   EXPECT_EQ(log.statuses.back().content.message, "");
 }
 
@@ -192,6 +212,53 @@ TEST_F(SensorTest, ASensorIsForOneProgramAtATime) {
   unsetenv("LCM_DEFAULT_URL");
   EXPECT_EQ(second.code, 1);
   EXPECT_THAT(second.err, HasSubstr("in use by another program"));
+}
+
+TEST_F(SensorTest, UsesACalibrationInPlaceOfTheFieldOfView) {
+  const std::string calibration = folder_.Write("camera.yaml", R"(image_width: 320
+image_height: 240
+camera_matrix: { rows: 3, cols: 3, data: [270, 0, 161, 0, 271, 118, 0, 0, 1] }
+)");
+  const std::string sensor = WriteSensor("", "");
+  ASSERT_EQ(
+      Run(Live(sensor), "num_frames: 2 depth_scale: 1.1 intrinsics_file: \"" + calibration + "\"")
+          .code,
+      0);
+  const DepthImage read = ReadLog().depth.at(0).image, rendered = Rendered(sensor).depth.at(0);
+  EXPECT_EQ(read.camera.width, 320);  // the size that was calibrated
+  EXPECT_EQ(read.camera.fx, 270);
+  EXPECT_EQ(read.camera.cy, 118);
+  EXPECT_EQ(read.CountAt(160, 200), std::lround(1.1 * rendered.CountAt(320, 400)));
+}
+
+// What a program sees that uses the driver for itself.
+TEST_F(SensorTest, IsADeviceThatCropsAndMirrors) {
+  const std::string sensor = WriteSensor("");
+  const DepthImage rendered = Rendered(sensor).depth.at(0);
+  ASSERT_EQ(openni::OpenNI::initialize(), openni::STATUS_OK);
+  {
+    openni::Device device;
+    ASSERT_EQ(device.open(("synthetic:" + sensor).c_str()), openni::STATUS_OK);
+    openni::VideoStream depth;
+    ASSERT_EQ(depth.create(device, openni::SENSOR_DEPTH), openni::STATUS_OK);
+    EXPECT_TRUE(depth.getMirroringEnabled());
+    EXPECT_EQ(depth.setCropping(300, 0, 100, 10), openni::STATUS_BAD_PARAMETER);
+    ASSERT_EQ(depth.setCropping(10, 200, 100, 20), openni::STATUS_OK);
+    ASSERT_EQ(depth.start(), openni::STATUS_OK);
+    EXPECT_NE(depth.setMirroringEnabled(false), openni::STATUS_OK);  // not while it runs
+    openni::VideoFrameRef frame;
+    ASSERT_EQ(depth.readFrame(&frame), openni::STATUS_OK);
+    ASSERT_EQ(frame.getWidth(), 100);
+    ASSERT_EQ(frame.getHeight(), 20);
+    const auto* counts = static_cast<const uint16_t*>(frame.getData());
+    EXPECT_EQ(counts[0], rendered.CountAt(319 - 10, 200));
+    EXPECT_EQ(counts[20 * 100 - 1], rendered.CountAt(319 - 109, 219));
+    frame.release();
+    depth.stop();
+    depth.destroy();
+    device.close();
+  }
+  openni::OpenNI::shutdown();
 }
 
 // Sensors that OpenNI2 lists by itself.
