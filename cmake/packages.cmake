@@ -9,6 +9,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(OpenMP REQUIRED)
 find_package(benchmark REQUIRED)
+find_package(hwy REQUIRED)
 
 find_path(LCM_INCLUDE_DIR lcm/lcm.h REQUIRED)
 find_library(LCM_LIBRARY lcm REQUIRED)

@@ -12,6 +12,7 @@ packages=(
   libeigen3-dev libpcl-dev
   libopenni2-dev                     # depth sensors and .oni files
   libpng-dev libturbojpeg0-dev libzstd-dev nlohmann-json3-dev libyaml-cpp-dev
+  libhwy-dev                         # SIMD with dispatch at run time
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 

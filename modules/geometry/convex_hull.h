@@ -27,6 +27,8 @@ class ConvexRegion {
     return !edges_.empty();
   }
 
+  const std::vector<Eigen::Vector3f>& edges() const { return edges_; }
+
  private:
   std::vector<Eigen::Vector3f> edges_;  // inward unit normal, offset [m]
 };

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "modules/geometry/marked_pixels.h"
+
 namespace declutter {
 namespace {
 
@@ -34,7 +36,7 @@ class DisjointSets {
 };
 
 // Replaces provisional labels by consecutive ones and counts their pixels.
-void Renumber(DisjointSets* sets, ImageComponents* components) {
+void Renumber(const std::vector<uint8_t>& mask, DisjointSets* sets, ImageComponents* components) {
   std::vector<int32_t> number(sets->size(), -1);
   for (size_t i = 0; i < number.size(); ++i) {
     const size_t root = static_cast<size_t>(sets->Root(static_cast<int32_t>(i)));
@@ -45,11 +47,12 @@ void Renumber(DisjointSets* sets, ImageComponents* components) {
       number[i] = number[root];
     }
   }
-  for (int32_t& label : components->label) {
-    if (label < 0) continue;
-    label = number[static_cast<size_t>(label)];
-    ++components->num_pixels[static_cast<size_t>(label)];
-  }
+  int32_t* label = components->label.data();
+  int32_t* num_pixels = components->num_pixels.data();
+  ForEachMarked(mask.data(), 0, mask.size(), [&](size_t i) {
+    label[i] = number[static_cast<size_t>(label[i])];
+    ++num_pixels[label[i]];
+  });
 }
 
 }  // namespace
@@ -61,10 +64,11 @@ ImageComponents LabelComponents(int width, int height, const std::vector<uint8_t
   int32_t* label = components.label.data();
   DisjointSets sets;
   for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const int i = v * width + u;
-      if (!mask[static_cast<size_t>(i)]) continue;
-      const float value = values[static_cast<size_t>(i)];
+    const auto row = static_cast<size_t>(v) * static_cast<size_t>(width);
+    ForEachMarked(mask.data(), row, row + static_cast<size_t>(width), [&](size_t p) {
+      const auto i = static_cast<int>(p);
+      const int u = static_cast<int>(p - row);
+      const float value = values[p];
       const auto join = [&](int j) {
         if (label[j] < 0 || std::abs(values[static_cast<size_t>(j)] - value) > max_step) return;
         if (label[i] < 0) {
@@ -78,9 +82,9 @@ ImageComponents LabelComponents(int width, int height, const std::vector<uint8_t
       if (v > 0 && u > 0) join(i - width - 1);
       if (v > 0 && u + 1 < width) join(i - width + 1);
       if (label[i] < 0) label[i] = sets.Add();
-    }
+    });
   }
-  Renumber(&sets, &components);
+  Renumber(mask, &sets, &components);
   return components;
 }
 

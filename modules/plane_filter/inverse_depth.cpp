@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "modules/geometry/marked_pixels.h"
+
 namespace declutter {
 
 InverseDepth Invert(const DepthImage& image) {
@@ -48,16 +50,38 @@ Plane InversePlane::ToPlane() const {
 
 PixelMask PlaneInliers(const InverseDepth& image, const InversePlane& plane, float band) {
   PixelMask mask(image.values.size());
+  const float* x = image.ray_x.data();
   for (int v = 0; v < image.height; ++v) {
     const float row = plane.b * image.ray_y[static_cast<size_t>(v)] + plane.c;
     const float* values = &image.values[image.Index(0, v)];
     uint8_t* marked = &mask[image.Index(0, v)];
     for (int u = 0; u < image.width; ++u) {
-      const float residual = values[u] - (plane.a * image.ray_x[static_cast<size_t>(u)] + row);
-      marked[u] = values[u] > 0 && std::abs(residual) <= band;
+      const float residual = values[u] - (plane.a * x[u] + row);
+      marked[u] = (values[u] > 0) & (std::abs(residual) <= band);
     }
   }
   return mask;
+}
+
+PixelMask Amid(const InverseDepth& image, const PixelMask& mask, int min_marked) {
+  PixelMask amid(mask.size());
+  std::vector<uint8_t> column_sums(static_cast<size_t>(image.width));
+  uint8_t* sums = column_sums.data();
+  const auto least = static_cast<uint8_t>(min_marked);
+  for (int v = 1; v + 1 < image.height; ++v) {
+    const uint8_t* middle = &mask[image.Index(0, v)];
+    const uint8_t* above = middle - image.width;
+    const uint8_t* below = middle + image.width;
+    for (int u = 0; u < image.width; ++u) {
+      sums[u] = static_cast<uint8_t>(above[u] + middle[u] + below[u]);
+    }
+    uint8_t* out = &amid[image.Index(0, v)];
+    for (int u = 1; u + 1 < image.width; ++u) {
+      const auto num = static_cast<uint8_t>(sums[u - 1] + sums[u] + sums[u + 1]);
+      out[u] = num >= least ? middle[u] : uint8_t{0};
+    }
+  }
+  return amid;
 }
 
 std::optional<InversePlane> FitInliers(const InverseDepth& image, const PixelMask& mask,
@@ -70,17 +94,17 @@ std::optional<InversePlane> FitInliers(const InverseDepth& image, const PixelMas
     const float* values = &image.values[image.Index(0, v)];
     const uint8_t* marked = &mask[image.Index(0, v)];
     float n = 0, sum_x = 0, sum_xx = 0, sum_r = 0, sum_rx = 0;
-    for (int u = 0; u < image.width; ++u) {
-      const float x = image.ray_x[static_cast<size_t>(u)];
+    ForEachMarked(marked, 0, static_cast<size_t>(image.width), [&](size_t u) {
+      const float x = image.ray_x[u];
       const float residual = values[u] - (plane.a * x + row);
-      const bool inlier = marked[u] && values[u] > 0 && std::abs(residual) <= band;
+      const bool inlier = values[u] > 0 && std::abs(residual) <= band;
       const float weight = inlier ? 1.0f : 0.0f;
       n += weight;
       sum_x += weight * x;
       sum_xx += weight * x * x;
       sum_r += weight * residual;
       sum_rx += weight * residual * x;
-    }
+    });
     Eigen::Matrix3d row_information;
     row_information << sum_xx, sum_x * y, sum_x, sum_x * y, n * y * y, n * y, sum_x, n * y, n;
     information += row_information;

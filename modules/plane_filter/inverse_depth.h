@@ -46,6 +46,10 @@ using PixelMask = std::vector<uint8_t>;
 // Pixels that deviate from the plane by at most band [1/m].
 PixelMask PlaneInliers(const InverseDepth& image, const InversePlane& plane, float band);
 
+// Marked pixels, none at the border of the image, with at least min_marked marked ones among
+// themselves and their 8 neighbours.
+PixelMask Amid(const InverseDepth& image, const PixelMask& mask, int min_marked);
+
 // Least squares over the marked pixels within band [1/m] of the plane, weighted by the sensor's
 // noise; nullopt when they do not fix a plane.
 std::optional<InversePlane> FitInliers(const InverseDepth& image, const PixelMask& mask,

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "modules/geometry/image_components.h"
+#include "modules/geometry/marked_pixels.h"
+#include "modules/plane_filter/pixel_kernels.h"
 #include "modules/plane_filter/prism.h"
 
 namespace declutter {
@@ -22,6 +25,9 @@ constexpr double kFootReach = 1.5;
 // Object pixels among a low pixel and its 8 neighbours.
 constexpr int kMinNeighborhood = 6;
 
+uint8_t IsTall(uint8_t height_class) { return height_class == 2; }
+uint8_t Or(uint8_t a, uint8_t b) { return a | b; }
+
 // Per pixel: 0 is not above the support, 1 as high as a foot, 2 as high as an object.
 std::vector<uint8_t> HeightClasses(const InverseDepth& image, const InversePlane& support,
                                    const PlaneFilterConfig& config) {
@@ -31,19 +37,14 @@ std::vector<uint8_t> HeightClasses(const InverseDepth& image, const InversePlane
   const float min_slope = static_cast<float>(config.min_height_m()) / camera_height;
   const float object_slope = static_cast<float>(config.object_height_m()) / camera_height;
   const float max_slope = static_cast<float>(config.max_height_m()) / camera_height;
+  const HeightLimits limits{kFootSigmas * sigma, kObjectSigmas * sigma, min_slope, object_slope,
+                            max_slope};
   std::vector<uint8_t> classes(image.values.size());
   for (int v = 0; v < image.height; ++v) {
     const float row = support.b * image.ray_y[static_cast<size_t>(v)] + support.c;
-    const float* values = &image.values[image.Index(0, v)];
-    uint8_t* out = &classes[image.Index(0, v)];
-    for (int u = 0; u < image.width; ++u) {
-      const float value = values[u];
-      const float residual = value - (support.a * image.ray_x[static_cast<size_t>(u)] + row);
-      const bool foot = (value > 0) & (residual < max_slope * value) &
-                        (residual > std::max(kFootSigmas * sigma, min_slope * value));
-      const bool object = residual > std::max(kObjectSigmas * sigma, object_slope * value);
-      out[u] = static_cast<uint8_t>(foot + (foot & object));
-    }
+    ClassifyHeights(image.ray_x.data(), &image.values[image.Index(0, v)],
+                    static_cast<size_t>(image.width), support.a, row, limits,
+                    &classes[image.Index(0, v)]);
   }
   return classes;
 }
@@ -52,31 +53,39 @@ std::vector<uint8_t> HeightClasses(const InverseDepth& image, const InversePlane
 void ClearBehind(const InverseDepth& image, const InversePlane& wall, float band,
                  std::vector<uint8_t>* classes) {
   for (int v = 0; v < image.height; ++v) {
+    const float y = image.ray_y[static_cast<size_t>(v)];
+    const float* values = &image.values[image.Index(0, v)];
+    uint8_t* out = &(*classes)[image.Index(0, v)];
     for (int u = 0; u < image.width; ++u) {
-      const size_t i = image.Index(u, v);
-      const float wall_value =
-          wall.At(image.ray_x[static_cast<size_t>(u)], image.ray_y[static_cast<size_t>(v)]);
-      if (image.values[i] - wall_value <= band) (*classes)[i] = 0;
+      const bool is_in_front = values[u] - wall.At(image.ray_x[static_cast<size_t>(u)], y) > band;
+      out[u] = is_in_front ? out[u] : uint8_t{0};
     }
   }
 }
 
-// Marks pixels with a marked one at most reach away in row and column. Every pass lets a mark live
-// for reach more steps; the passes over rows of pixels at once run for all columns in parallel.
+// Marks a row of pixels where a marked one is at most reach away.
+void DilateRow(const uint8_t* in, int width, int reach, uint8_t* out) {
+  for (const uint8_t* first = in;;) {
+    first =
+        static_cast<const uint8_t*>(std::memchr(first, 1, static_cast<size_t>(in + width - first)));
+    if (first == nullptr) return;
+    const uint8_t* end = std::find(first, in + width, uint8_t{0});
+    const int from = std::max(static_cast<int>(first - in) - reach, 0);
+    const int to = std::min(static_cast<int>(end - in) + reach, width);
+    std::memset(out + from, 1, static_cast<size_t>(to - from));
+    first = end;
+  }
+}
+
+// Marks pixels with a marked one at most reach away in row and column. Over the columns every pass
+// lets a mark live for reach more steps, in all columns in parallel.
 PixelMask Dilate(const InverseDepth& image, const PixelMask& mask, int reach) {
-  const uint8_t full = static_cast<uint8_t>(std::min(reach, 254) + 1);
+  reach = std::min(reach, 254);
+  const uint8_t full = static_cast<uint8_t>(reach + 1);
   const size_t width = static_cast<size_t>(image.width);
   PixelMask dilated(mask.size());
-  const auto spread_row = [&](const uint8_t* in, uint8_t* out, int first, int step) {
-    int life = 0;
-    for (int i = 0, u = first; i < image.width; ++i, u += step) {
-      life = in[u] ? full : std::max(life - 1, 0);
-      out[u] |= life > 0;
-    }
-  };
   for (size_t row = 0; row < mask.size(); row += width) {
-    spread_row(&mask[row], &dilated[row], 0, 1);
-    spread_row(&mask[row], &dilated[row], image.width - 1, -1);
+    DilateRow(&mask[row], image.width, reach, &dilated[row]);
   }
   const PixelMask rows = dilated;
   std::vector<uint8_t> lives(width);
@@ -103,29 +112,24 @@ PixelMask StandingRegions(const InverseDepth& image, const PixelMask& tall, cons
   const ImageComponents regions =
       LabelComponents(image.width, image.height, tall, image.values, step);
   std::vector<int32_t> num_inside(regions.num_pixels.size());
-  std::vector<uint8_t> place(tall.size());  // 2: over the hull, 1: over the widened hull
+  PixelMask over_hull(tall.size());
+  PixelMask over_widened(tall.size());
   for (int v = 0; v < image.height; ++v) {
-    for (int u = 0; u < image.width; ++u) {
-      const size_t i = image.Index(u, v);
-      if (!tall[i]) continue;
-      const float x = image.ray_x[static_cast<size_t>(u)];
-      const float y = image.ray_y[static_cast<size_t>(v)];
-      if (hull.Contains(x, y, image.values[i])) {
-        place[i] = 2;
-      } else if (widened.Contains(x, y, image.values[i])) {
-        place[i] = 1;
-      }
-      num_inside[static_cast<size_t>(regions.label[i])] += place[i] > 0;
-    }
+    const size_t row = image.Index(0, v);
+    hull.MarkContained(image, v, &tall[row], &over_hull[row]);
+    widened.MarkContained(image, v, &tall[row], &over_widened[row]);
   }
+  ForEachMarked(tall.data(), 0, tall.size(), [&](size_t i) {
+    num_inside[static_cast<size_t>(regions.label[i])] += over_hull[i] | over_widened[i];
+  });
   PixelMask standing(tall.size());
-  for (size_t i = 0; i < tall.size(); ++i) {
-    if (!tall[i]) continue;
+  const int32_t min_pixels = config.min_object_pixels();
+  ForEachMarked(tall.data(), 0, tall.size(), [&](size_t i) {
     const size_t region = static_cast<size_t>(regions.label[i]);
     const int32_t num_pixels = regions.num_pixels[region];
-    if (num_pixels < config.min_object_pixels()) continue;
-    standing[i] = place[i] == 2 || 2 * num_inside[region] > num_pixels;
-  }
+    if (num_pixels < min_pixels) return;
+    standing[i] = over_hull[i] || 2 * num_inside[region] > num_pixels;
+  });
   return standing;
 }
 
@@ -133,19 +137,8 @@ PixelMask StandingRegions(const InverseDepth& image, const PixelMask& tall, cons
 // and makes thin streaks beside objects.
 PixelMask WithoutStreaks(const InverseDepth& image, const PixelMask& objects,
                          const PixelMask& standing) {
-  PixelMask kept = standing;
-  for (int v = 1; v + 1 < image.height; ++v) {
-    for (int u = 1; u + 1 < image.width; ++u) {
-      const size_t i = image.Index(u, v);
-      if (!objects[i] || standing[i]) continue;
-      int num_objects = 0;
-      for (int dv = -1; dv <= 1; ++dv) {
-        const uint8_t* row = &objects[image.Index(u, v + dv)];
-        num_objects += row[-1] + row[0] + row[1];
-      }
-      kept[i] = num_objects >= kMinNeighborhood;
-    }
-  }
+  PixelMask kept = Amid(image, objects, kMinNeighborhood);
+  std::transform(kept.begin(), kept.end(), standing.begin(), kept.begin(), Or);
   return kept;
 }
 
@@ -158,7 +151,7 @@ PixelMask ObjectPixels(const InverseDepth& image, const InversePlane& support,
   const float wall_band = static_cast<float>(config.inlier_sigmas() * config.inverse_depth_sigma());
   for (const InversePlane& wall : walls) ClearBehind(image, wall, wall_band, &classes);
   PixelMask tall(classes.size());
-  for (size_t i = 0; i < tall.size(); ++i) tall[i] = classes[i] == 2;
+  std::transform(classes.begin(), classes.end(), tall.begin(), IsTall);
   const PixelMask standing =
       StandingRegions(image, tall, Prism(support, hull_T, 0.0),
                       Prism(support, hull_T, config.hull_margin_m()), config);
@@ -171,9 +164,11 @@ PixelMask ObjectPixels(const InverseDepth& image, const InversePlane& support,
       static_cast<int>(std::ceil(kFootReach * config.object_height_m() * middle / pixel_angle)), 1,
       image.width);
   PixelMask objects = Dilate(image, standing, reach);
-  for (size_t i = 0; i < objects.size(); ++i) {
-    objects[i] = standing[i] || (objects[i] && classes[i] == 1);
-  }
+  // Feet near what stands, and what stands.
+  std::transform(
+      objects.begin(), objects.end(), classes.begin(), objects.begin(),
+      [](uint8_t near, uint8_t height_class) -> uint8_t { return near & (height_class == 1); });
+  std::transform(objects.begin(), objects.end(), standing.begin(), objects.begin(), Or);
   return WithoutStreaks(image, objects, standing);
 }
 

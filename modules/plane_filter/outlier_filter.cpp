@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+
+#include "modules/plane_filter/pixel_kernels.h"
 
 namespace declutter {
 namespace {
@@ -9,101 +12,68 @@ namespace {
 // Average and spread over all marked pixels need about as many of them.
 constexpr double kStatisticsPixels = 1000;
 
-// Half width of the part of the window where near neighbours are counted [px].
-constexpr int kNearHalfWidth = 2;
-
-// The points of an image, unmarked ones left out. Distances are over the depth of the point that
-// they are measured from.
+// The points of an image, unmarked ones left out, with a margin that no window leaves. Distances
+// are over the depth of the point that they are measured from.
 class Points {
  public:
   Points(const InverseDepth& image, const PixelMask& mask, const PlaneFilterConfig& config)
-      : image_(image),
+      : width_(image.width),
+        height_(image.height),
         half_width_(config.outlier_window_px() / 2),
-        num_nearest_(static_cast<size_t>(config.outlier_neighbors())) {
-    for (size_t i = 0; i < mask.size(); ++i) image_.values[i] *= mask[i];
-  }
-
-  bool Has(int u, int v) const { return image_.values[image_.Index(u, v)] > 0; }
-
-  // Mean distance to the nearest points in the window. Where it has too few, the missing ones count
-  // as far as the farthest that there is; a point alone is infinitely far.
-  float MeanOfNearest(int u, int v) {
-    FindNeighbors(u, v);
-    return MeanOfNearest();
-  }
-
-  // Whether the mean distance to the nearest points in the window is above limit.
-  bool IsOutlier(int u, int v, float limit) {
-    FindNeighbors(u, v);
-    const auto num_near = std::count_if(squares_.begin(), squares_.end(),
-                                        [&](float square) { return square < limit * limit; });
-    // Enough points within limit keep the mean of the nearest ones below it.
-    return static_cast<size_t>(num_near) < num_nearest_ && MeanOfNearest() > limit;
-  }
-
-  // Number of points within limit of each point of row v, between columns first and last, in a part
-  // of the window. Plain loops over rows: this runs for all pixels.
-  void CountNear(int v, int first, int last, float limit, std::vector<int>* counts) const {
-    counts->assign(static_cast<size_t>(image_.width), 0);
-    int* count = counts->data();
-    const float* values = &image_.values[image_.Index(0, v)];
-    for (int dv = -kNearHalfWidth; dv <= kNearHalfWidth; ++dv) {
-      if (v + dv < 0 || v + dv >= image_.height) continue;
-      const float* others = &image_.values[image_.Index(0, v + dv)];
-      for (int du = -kNearHalfWidth; du <= kNearHalfWidth; ++du) {
-        if (du == 0 && dv == 0) continue;
-        const int end = std::min(last, image_.width - 1 - du);
-        for (int u = std::max(first, -du); u <= end; ++u) {
-          const float other = others[u + du];
-          const float limit_square = limit * limit * other * other;
-          // A missing point is at 0 and never near.
-          count[u] += Square(u, v, values[u], u + du, v + dv, other) < limit_square;
-        }
-      }
+        num_nearest_(static_cast<size_t>(config.outlier_neighbors())),
+        margin_(std::max(half_width_, kMinMargin)),
+        stride_(image.width + 2 * margin_ + static_cast<int>(kKernelPadding)),
+        x_(static_cast<size_t>(stride_)),
+        y_(static_cast<size_t>(image.height + 2 * margin_)),
+        values_(static_cast<size_t>(stride_) * y_.size()) {
+    std::copy(image.ray_x.begin(), image.ray_x.end(), x_.begin() + margin_);
+    std::copy(image.ray_y.begin(), image.ray_y.end(), y_.begin() + margin_);
+    for (int v = 0; v < image.height; ++v) {
+      const float* from = &image.values[image.Index(0, v)];
+      const uint8_t* marked = &mask[image.Index(0, v)];
+      float* to = &values_[Index(0, v)];
+      for (int u = 0; u < image.width; ++u) to[u] = from[u] * static_cast<float>(marked[u]);
     }
   }
+
+  bool Has(int u, int v) const { return values_[Index(u, v)] > 0; }
+
+  // Mean distance to the nearest points in the window.
+  float MeanOfNearest(int u, int v) const {
+    return declutter::MeanOfNearest(Row(v), static_cast<size_t>(u), half_width_, num_nearest_);
+  }
+
+  // Number of points within limit of each point of row v, as far as it is below num_nearest.
+  void CountNear(int v, float limit, std::vector<int32_t>* counts) const {
+    declutter::CountNear(Row(v), static_cast<size_t>(width_), half_width_, limit,
+                         static_cast<int>(num_nearest_), counts->data());
+  }
+
+  int width() const { return width_; }
+  int height() const { return height_; }
 
  private:
-  // Fills squares_ with the squared distances to the other points in the window.
-  void FindNeighbors(int u, int v) {
-    squares_.clear();
-    const float value = image_.values[image_.Index(u, v)];
-    const int last_v = std::min(v + half_width_, image_.height - 1);
-    const int last_u = std::min(u + half_width_, image_.width - 1);
-    for (int other_v = std::max(v - half_width_, 0); other_v <= last_v; ++other_v) {
-      for (int other_u = std::max(u - half_width_, 0); other_u <= last_u; ++other_u) {
-        const float other = image_.values[image_.Index(other_u, other_v)];
-        if (other <= 0 || (other_u == u && other_v == v)) continue;
-        squares_.push_back(Square(u, v, value, other_u, other_v, other) / (other * other));
-      }
-    }
+  static constexpr int kMinMargin = 2;  // [px] that CountNear always reads
+
+  size_t Index(int u, int v) const {
+    return static_cast<size_t>(v + margin_) * static_cast<size_t>(stride_) +
+           static_cast<size_t>(u + margin_);
   }
 
-  float MeanOfNearest() {
-    if (squares_.empty()) return HUGE_VALF;
-    const size_t num = std::min(squares_.size(), num_nearest_);
-    const auto farthest = squares_.begin() + static_cast<std::ptrdiff_t>(num) - 1;
-    std::nth_element(squares_.begin(), farthest, squares_.end());
-    float sum = std::sqrt(*farthest) * static_cast<float>(num_nearest_ - num);
-    for (size_t i = 0; i < num; ++i) sum += std::sqrt(squares_[i]);
-    return sum / static_cast<float>(num_nearest_);
+  PointWindow Row(int v) const {
+    return {&values_[Index(0, v)], stride_, &x_[static_cast<size_t>(margin_)],
+            &y_[static_cast<size_t>(v + margin_)]};
   }
 
-  // Squared distance of two points, over the squared depth of the first, times the squared inverse
-  // depth of the second: no division.
-  float Square(int u, int v, float value, int other_u, int other_v, float other) const {
-    const float* x = image_.ray_x.data();
-    const float* y = image_.ray_y.data();
-    const float dx = x[other_u] * value - x[u] * other;
-    const float dy = y[other_v] * value - y[v] * other;
-    const float dz = value - other;
-    return dx * dx + dy * dy + dz * dz;
-  }
-
-  InverseDepth image_;
+  int width_;
+  int height_;
   int half_width_;
   size_t num_nearest_;
-  std::vector<float> squares_;
+  int margin_;
+  int stride_;
+  std::vector<float> x_;
+  std::vector<float> y_;
+  std::vector<float> values_;
 };
 
 // sigmas standard deviations above the average of the values up to max_value.
@@ -124,13 +94,12 @@ double LimitOf(const std::vector<float>& values, double sigmas, double max_value
 
 // The mean distance from which a point is an outlier. Outliers themselves are left out of the
 // second estimate: a handful would set the limit.
-float OutlierLimit(const InverseDepth& image, const PixelMask& mask, double sigmas,
-                   Points* points) {
-  const double num_marked = static_cast<double>(std::count(mask.begin(), mask.end(), 1));
-  const int stride = std::max(1, static_cast<int>(std::sqrt(num_marked / kStatisticsPixels)));
+float OutlierLimit(size_t num_marked, double sigmas, Points* points) {
+  const int stride =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(num_marked) / kStatisticsPixels)));
   std::vector<float> means;
-  for (int v = 0; v < image.height; v += stride) {
-    for (int u = 0; u < image.width; u += stride) {
+  for (int v = 0; v < points->height(); v += stride) {
+    for (int u = 0; u < points->width(); u += stride) {
       if (points->Has(u, v)) means.push_back(points->MeanOfNearest(u, v));
     }
   }
@@ -143,20 +112,19 @@ float OutlierLimit(const InverseDepth& image, const PixelMask& mask, double sigm
 PixelMask RemoveOutliers(const InverseDepth& image, const PixelMask& mask,
                          const PlaneFilterConfig& config) {
   Points points(image, mask, config);
-  const float limit = OutlierLimit(image, mask, config.outlier_sigmas(), &points);
+  const auto num_marked = static_cast<size_t>(std::count(mask.begin(), mask.end(), 1));
+  const float limit = OutlierLimit(num_marked, config.outlier_sigmas(), &points);
   PixelMask kept(mask.size());
-  std::vector<int> num_near;
+  std::vector<int32_t> num_near(static_cast<size_t>(image.width) + kKernelPadding);
   for (int v = 0; v < image.height; ++v) {
-    int first = 0;
-    int last = image.width - 1;
-    while (first <= last && !points.Has(first, v)) ++first;
-    while (first <= last && !points.Has(last, v)) --last;
-    if (first > last) continue;
-    points.CountNear(v, first, last, limit, &num_near);
-    for (int u = first; u <= last; ++u) {
-      if (!points.Has(u, v)) continue;
-      const bool surely_near = num_near[static_cast<size_t>(u)] >= config.outlier_neighbors();
-      kept[image.Index(u, v)] = surely_near || !points.IsOutlier(u, v, limit);
+    const uint8_t* marked = &mask[image.Index(0, v)];
+    if (std::memchr(marked, 1, static_cast<size_t>(image.width)) == nullptr) continue;
+    points.CountNear(v, limit, &num_near);
+    for (int u = 0; u < image.width; ++u) {
+      if (!marked[u] || !points.Has(u, v)) continue;
+      // Enough points within limit keep the mean of the nearest ones below it.
+      kept[image.Index(u, v)] = num_near[static_cast<size_t>(u)] >= config.outlier_neighbors() ||
+                                points.MeanOfNearest(u, v) <= limit;
     }
   }
   return kept;

@@ -1,7 +1,6 @@
 #include "modules/plane_filter/plane_filter.h"
 
-#include <algorithm>
-
+#include "modules/geometry/marked_pixels.h"
 #include "modules/plane_filter/object_pixels.h"
 #include "modules/plane_filter/outlier_filter.h"
 #include "modules/plane_filter/plane_search.h"
@@ -75,10 +74,10 @@ Tabletop PlaneFilter::Filter(const DepthFrame& frame) const {
     const PixelMask standing = ObjectPixels(image, support.plane, hull_T, walls, config_);
     objects = RemoveOutliers(image, standing, config_);
   }
-  for (size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i]) tabletop.objects.counts[i] = frame.image.counts[i];
-  }
-  tabletop.num_object_points = static_cast<int>(std::count(objects.begin(), objects.end(), 1));
+  ForEachMarked(objects.data(), 0, objects.size(), [&](size_t i) {
+    tabletop.objects.counts[i] = frame.image.counts[i];
+    ++tabletop.num_object_points;
+  });
   return tabletop;
 }
 

@@ -7,6 +7,8 @@
 #include <random>
 
 #include "modules/geometry/image_components.h"
+#include "modules/geometry/marked_pixels.h"
+#include "modules/plane_filter/pixel_kernels.h"
 
 namespace declutter {
 namespace {
@@ -18,6 +20,9 @@ constexpr int kSampleReaches[] = {14, 6};
 // Where a plane cuts through another surface, the residuals fill the band evenly, with a root mean
 // square of 0.58 of its half width; the sensor's noise stays below this part of it.
 constexpr double kMaxRmsOfBand = 0.5;
+
+// Inliers among an inlier and its 8 neighbours.
+constexpr int kMinAmid = 7;
 
 // Uniform in [0, size), the same on every standard library.
 int Draw(std::mt19937_64* random, int size) {
@@ -59,21 +64,31 @@ std::optional<InversePlane> SamplePlane(const InverseDepth& grid, int reach,
   return PlaneThrough(grid, pixels);
 }
 
-int CountInliers(const InverseDepth& grid, const InversePlane& plane, float band) {
-  int count = 0;
+// The pixels of a grid that have a measurement, in no need of their places.
+struct PixelList {
+  std::vector<float> x, y, values;  // rays and 1 / z [1/m]; zeros for kernels at the end
+  size_t num = 0;
+};
+
+void ListMeasured(const InverseDepth& grid, PixelList* list) {
+  list->num = 0;
+  for (auto* plane : {&list->x, &list->y, &list->values}) {
+    plane->resize(grid.values.size() + kKernelPadding);
+  }
   for (int v = 0; v < grid.height; ++v) {
-    const float row = plane.b * grid.ray_y[static_cast<size_t>(v)] + plane.c;
     const float* values = &grid.values[grid.Index(0, v)];
     for (int u = 0; u < grid.width; ++u) {
-      const float residual = values[u] - (plane.a * grid.ray_x[static_cast<size_t>(u)] + row);
-      count += (values[u] > 0) & (std::abs(residual) <= band);
+      if (values[u] <= 0) continue;
+      list->x[list->num] = grid.ray_x[static_cast<size_t>(u)];
+      list->y[list->num] = grid.ray_y[static_cast<size_t>(v)];
+      list->values[list->num++] = values[u];
     }
   }
-  return count;
+  std::fill_n(list->values.begin() + static_cast<std::ptrdiff_t>(list->num), kKernelPadding, 0.0f);
 }
 
-std::optional<InversePlane> BestSample(const InverseDepth& grid, int num_samples, float band,
-                                       std::mt19937_64* random) {
+std::optional<InversePlane> BestSample(const InverseDepth& grid, const PixelList& measured,
+                                       int num_samples, float band, std::mt19937_64* random) {
   std::optional<InversePlane> best;
   int best_count = 0;
   // Draws that meet a gap are repeated, but not for ever.
@@ -81,7 +96,9 @@ std::optional<InversePlane> BestSample(const InverseDepth& grid, int num_samples
     const std::optional<InversePlane> plane = SamplePlane(grid, kSampleReaches[drawn % 2], random);
     if (!plane) continue;
     ++sampled;
-    const int count = CountInliers(grid, *plane, band);
+    const int count =
+        CountPlaneInliers(measured.x.data(), measured.y.data(), measured.values.data(),
+                          measured.num, plane->a, plane->b, plane->c, band, best_count);
     if (count > best_count) {
       best_count = count;
       best = plane;
@@ -90,49 +107,30 @@ std::optional<InversePlane> BestSample(const InverseDepth& grid, int num_samples
   return best;
 }
 
-// Inliers that have at least 6 inliers among their 8 neighbours.
-PixelMask AmidInliers(const InverseDepth& image, const PixelMask& inliers) {
-  PixelMask amid(inliers.size());
-  for (int v = 1; v + 1 < image.height; ++v) {
-    for (int u = 1; u + 1 < image.width; ++u) {
-      if (!inliers[image.Index(u, v)]) continue;
-      int count = 0;
-      for (int dv = -1; dv <= 1; ++dv) {
-        const uint8_t* row = &inliers[image.Index(u, v + dv)];
-        count += row[-1] + row[0] + row[1];
-      }
-      amid[image.Index(u, v)] = count >= 7;
-    }
-  }
-  return amid;
-}
-
 }  // namespace
 
 PixelMask CoherentRegion(const InverseDepth& image, const InversePlane& plane, float band,
                          int min_region_pixels) {
-  PixelMask region = AmidInliers(image, PlaneInliers(image, plane, band));
+  PixelMask region = Amid(image, PlaneInliers(image, plane, band), kMinAmid);
   // The inliers are in one plane: whether pixels touch in the image is all that counts.
   const ImageComponents components =
       LabelComponents(image.width, image.height, region, image.values, HUGE_VALF);
   std::vector<double> sum_squares(components.num_pixels.size());
   for (int v = 0; v < image.height; ++v) {
-    for (int u = 0; u < image.width; ++u) {
-      const size_t i = image.Index(u, v);
-      if (!region[i]) continue;
-      const float residual = image.values[i] - plane.At(image.ray_x[static_cast<size_t>(u)],
-                                                        image.ray_y[static_cast<size_t>(v)]);
+    const float y = image.ray_y[static_cast<size_t>(v)];
+    const size_t row = image.Index(0, v);
+    ForEachMarked(region.data(), row, row + static_cast<size_t>(image.width), [&](size_t i) {
+      const float residual = image.values[i] - plane.At(image.ray_x[i - row], y);
       sum_squares[static_cast<size_t>(components.label[i])] += residual * residual;
-    }
+    });
   }
   const double max_mean_square = kMaxRmsOfBand * kMaxRmsOfBand * band * band;
-  for (size_t i = 0; i < region.size(); ++i) {
-    if (!region[i]) continue;
+  ForEachMarked(region.data(), 0, region.size(), [&](size_t i) {
     const size_t label = static_cast<size_t>(components.label[i]);
     const int32_t num_pixels = components.num_pixels[label];
     region[i] =
         num_pixels >= min_region_pixels && sum_squares[label] <= max_mean_square * num_pixels;
-  }
+  });
   return region;
 }
 
@@ -144,10 +142,13 @@ std::vector<PlaneCandidate> FindPlanes(const InverseDepth& grid, const PlaneFilt
   const int min_pixels = std::max(
       3, static_cast<int>(config.min_plane_fraction() * static_cast<double>(grid.values.size())));
   InverseDepth rest = grid;
+  PixelList measured;
   const int max_attempts = 2 * config.max_planes();
   for (int attempt = 0; attempt < max_attempts; ++attempt) {
     if (static_cast<int>(candidates.size()) == config.max_planes()) break;
-    std::optional<InversePlane> plane = BestSample(rest, config.num_samples(), band, &random);
+    ListMeasured(rest, &measured);
+    std::optional<InversePlane> plane =
+        BestSample(rest, measured, config.num_samples(), band, &random);
     if (!plane) break;
     for (int i = 0; plane && i < 3; ++i) {
       plane = FitInliers(rest, PixelMask(rest.values.size(), 1), *plane, band);

@@ -1,5 +1,7 @@
 #include "modules/plane_filter/prism.h"
 
+#include "modules/plane_filter/pixel_kernels.h"
+
 namespace declutter {
 namespace {
 
@@ -37,6 +39,16 @@ Prism::Prism(const InversePlane& plane, const std::vector<Eigen::Vector2d>& hull
   const Eigen::Matrix3d R_TC = TableFrame(plane.ToPlane()).linear();
   x_axis_ = R_TC.row(0).transpose().cast<float>();
   y_axis_ = R_TC.row(1).transpose().cast<float>();
+}
+
+void Prism::MarkContained(const InverseDepth& image, int v, const uint8_t* marked,
+                          uint8_t* contained) const {
+  const std::vector<Eigen::Vector3f>& edges = base_.edges();
+  const RegionView region{x_axis_.data(), y_axis_.data(), edges.empty() ? nullptr : edges[0].data(),
+                          edges.size()};
+  declutter::MarkContained(image.ray_x.data(), image.ray_y[static_cast<size_t>(v)],
+                           &image.values[image.Index(0, v)], marked,
+                           static_cast<size_t>(image.width), region, contained);
 }
 
 }  // namespace declutter

@@ -24,12 +24,9 @@ class Prism {
     return base_.Contains(x_axis_.dot(p), y_axis_.dot(p));
   }
 
-  // Whether the point with z = 1 / value on ray (x, y, 1) of C is in the prism.
-  bool Contains(float x, float y, float value) const {
-    const float z = 1 / value;
-    return base_.Contains(z * (x_axis_.x() * x + x_axis_.y() * y + x_axis_.z()),
-                          z * (y_axis_.x() * x + y_axis_.y() * y + y_axis_.z()));
-  }
+  // Per pixel of row v: 1 where it is marked and its point is in the prism.
+  void MarkContained(const InverseDepth& image, int v, const uint8_t* marked,
+                     uint8_t* contained) const;
 
  private:
   Eigen::Vector3f x_axis_;  // of T in C; the origin of T is under the camera centre
