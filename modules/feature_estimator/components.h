@@ -20,11 +20,15 @@ struct ComponentImage {
   int num_components = 0;
   std::vector<int32_t>
       label;  // 0 .. num_components - 1, in the order of their first pixels; -1: none
+
+  // What labelling needs meanwhile, by element: sets, patches of direct neighbours and the ends of
+  // their runs, numbers of points; and the elements with a point.
+  std::vector<int32_t> parent, patch, run_end, num_points, elements;
 };
 
 // Components with fewer than min_points points are dropped. The margin of the points must be at
 // least reach_px wide.
 ComponentImage LabelComponents(const PointImage& points, const Connection& connection,
-                               int min_points);
+                               int min_points, ComponentImage recycled = {});
 
 }  // namespace declutter

@@ -1,6 +1,7 @@
 #include "modules/feature_estimator/horizontal_curvature.h"
 
 #include <cmath>
+#include <utility>
 
 #include "modules/feature_estimator/lanes.h"
 
@@ -10,32 +11,34 @@ namespace {
 // Part of the neighbours that half of a window must hold to be trusted.
 constexpr float kMinHalf = 0.125F;
 
-// Points, normals and horizontal tangents of the points on sides; kFar and zero elsewhere.
+// The points, of which those on sides, their normals and tangents.
 struct SideImage {
-  PointImage points;
-  std::vector<float> normal_x, normal_y, normal_z;
-  std::vector<float> tangent_x, tangent_y, tangent_z;
+  const PointImage& points;
+  const NormalImage& normals;
+  CurvatureImage& curvature;
 };
 
-SideImage SelectSides(const PointImage& points, const NormalImage& normals,
-                      const Eigen::Vector3f& up_C, double max_tilt_rad) {
-  SideImage sides{points, normals.x, normals.y, normals.z, {}, {}, {}};
-  for (auto* plane : {&sides.tangent_x, &sides.tangent_y, &sides.tangent_z}) {
-    plane->assign(points.x.size(), 0.0F);
+void SelectSides(const Eigen::Vector3f& up_C, double max_tilt_rad, SideImage* sides) {
+  const PointImage& points = sides->points;
+  const NormalImage& normals = sides->normals;
+  CurvatureImage& curvature = sides->curvature;
+  curvature.side_x.assign(points.x.size(), PointImage::kFar);
+  for (auto* plane : {&curvature.tangent_x, &curvature.tangent_y, &curvature.tangent_z}) {
+    plane->resize(points.x.size());
   }
   const float max_vertical = static_cast<float>(std::sin(max_tilt_rad));
-  for (size_t i = 0; i < points.x.size(); ++i) {
-    const Eigen::Vector3f normal(normals.x[i], normals.y[i], normals.z[i]);
-    if (normals.IsKnown(i) && std::abs(normal.dot(up_C)) <= max_vertical) {
+  for (int j = 0; j < points.height; ++j) {
+    for (size_t i = points.Index(0, j); i < points.Index(points.width, j); ++i) {
+      if (!normals.IsKnown(i)) continue;
+      const Eigen::Vector3f normal(normals.x[i], normals.y[i], normals.z[i]);
+      if (std::abs(normal.dot(up_C)) > max_vertical) continue;
       const Eigen::Vector3f tangent = up_C.cross(normal).normalized();
-      sides.tangent_x[i] = tangent.x();
-      sides.tangent_y[i] = tangent.y();
-      sides.tangent_z[i] = tangent.z();
-    } else {
-      sides.points.x[i] = sides.points.y[i] = sides.points.z[i] = PointImage::kFar;
+      curvature.tangent_x[i] = tangent.x();
+      curvature.tangent_y[i] = tangent.y();
+      curvature.tangent_z[i] = tangent.z();
+      curvature.side_x[i] = points.x[i];
     }
   }
-  return sides;
 }
 
 // Sums over neighbours at offset s along the tangent whose normals have component m along it.
@@ -87,29 +90,31 @@ DECLUTTER_LANES void SumNeighbors(const SideImage& sides, size_t begin,
                                   const Neighborhood& neighborhood, SlopeSums& all, SlopeSums& left,
                                   Lanes& mm) {
   const PointImage& points = sides.points;
-  const SphereWindow window(points, begin, neighborhood);
+  const NormalImage& normals = sides.normals;
+  const CurvatureImage& curvature = sides.curvature;
+  const SphereWindow window(points, curvature.side_x.data(), begin, neighborhood);
   const int stride = window.stride();
   const float radius_m = static_cast<float>(neighborhood.radius_m);
   const float max_squared_distance = radius_m * radius_m;
   Lanes px, py, pz, tx, ty, tz;
-  LoadLanes(&points.x[begin], px);
+  LoadLanes(&curvature.side_x[begin], px);
   LoadLanes(&points.y[begin], py);
   LoadLanes(&points.z[begin], pz);
-  LoadLanes(&sides.tangent_x[begin], tx);
-  LoadLanes(&sides.tangent_y[begin], ty);
-  LoadLanes(&sides.tangent_z[begin], tz);
+  LoadLanes(&curvature.tangent_x[begin], tx);
+  LoadLanes(&curvature.tangent_y[begin], ty);
+  LoadLanes(&curvature.tangent_z[begin], tz);
   for (int row = -window.num_rows(); row <= window.num_rows(); row += stride) {
     const int columns = window.Columns(row);
     const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + row * points.stride;
     for (int column = -columns; column <= columns; column += stride) {
       const ptrdiff_t q = center + column;
       Lanes x, y, z, nx, ny, nz;
-      LoadLanes(points.x.data() + q, x);
+      LoadLanes(curvature.side_x.data() + q, x);
       LoadLanes(points.y.data() + q, y);
       LoadLanes(points.z.data() + q, z);
-      LoadLanes(sides.normal_x.data() + q, nx);
-      LoadLanes(sides.normal_y.data() + q, ny);
-      LoadLanes(sides.normal_z.data() + q, nz);
+      LoadLanes(normals.x.data() + q, nx);
+      LoadLanes(normals.y.data() + q, ny);
+      LoadLanes(normals.z.data() + q, nz);
       x -= px;
       y -= py;
       z -= pz;
@@ -132,37 +137,38 @@ DECLUTTER_LANES void SumNeighbors(const SideImage& sides, size_t begin,
 }
 
 DECLUTTER_FOR_EACH_PROCESSOR void FitBlock(const SideImage& sides, size_t begin,
-                                           const CurvatureWindow& window,
-                                           std::vector<float>* kappa) {
+                                           const CurvatureWindow& window) {
   SlopeSums all, left;
-  Lanes mm{}, slope, half_slope, residual, pz;
+  Lanes mm{}, slope, half_slope, residual, px;
   SumNeighbors(sides, begin, window.neighborhood, all, left, mm);
   FitSlope(all, slope);
   SquaredResidual(all, mm, slope, residual);
   FitFlatterHalf(all, left, half_slope);
   const float max_residual = static_cast<float>(window.max_residual);
   slope = residual > max_residual * max_residual ? half_slope : slope;
-  LoadLanes(&sides.points.z[begin], pz);
-  KeepLanes(pz < PointImage::kFar, slope);
-  StoreLanes(slope, &(*kappa)[begin]);
+  LoadLanes(&sides.curvature.side_x[begin], px);
+  KeepLanes(px < PointImage::kFar, slope);
+  StoreLanes(slope, &sides.curvature.kappa[begin]);
 }
 
 }  // namespace
 
-std::vector<float> EstimateHorizontalCurvature(const PointImage& points, const NormalImage& normals,
-                                               const Eigen::Vector3d& up_C,
-                                               const CurvatureWindow& window) {
-  const SideImage sides = SelectSides(points, normals, up_C.cast<float>(), window.max_tilt_rad);
-  std::vector<float> kappa(points.x.size(), 0.0F);
+CurvatureImage EstimateHorizontalCurvature(const PointImage& points, const NormalImage& normals,
+                                           const Eigen::Vector3d& up_C,
+                                           const CurvatureWindow& window, CurvatureImage recycled) {
+  CurvatureImage curvature = std::move(recycled);
+  curvature.kappa.assign(points.x.size(), 0.0F);
+  SideImage sides{points, normals, curvature};
+  SelectSides(up_C.cast<float>(), window.max_tilt_rad, &sides);
   for (int j = 0; j < points.height; ++j) {
     for (int i = 0; i < points.width; ++i) {
       const size_t begin = points.Index(i, j);
-      if (!sides.points.HasPoint(begin)) continue;
-      FitBlock(sides, begin, window, &kappa);
+      if (curvature.side_x[begin] >= PointImage::kFar) continue;
+      FitBlock(sides, begin, window);
       i += PointImage::kLanes - 1;
     }
   }
-  return kappa;
+  return curvature;
 }
 
 }  // namespace declutter

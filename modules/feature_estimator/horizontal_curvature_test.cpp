@@ -22,7 +22,8 @@ std::vector<float> KappaOf(const Tabletop& tabletop,
                            const std::function<bool(const Eigen::Vector3d&)>& select) {
   const PointImage points = MakePointImage(tabletop, kWindow.neighborhood.radius_m);
   const NormalImage normals = EstimateNormals(points, {0.015}, 8);
-  const std::vector<float> kappa = EstimateHorizontalCurvature(points, normals, kUp_C, kWindow);
+  const std::vector<float> kappa =
+      EstimateHorizontalCurvature(points, normals, kUp_C, kWindow).kappa;
   std::vector<float> selected;
   for (size_t i = 0; i < kappa.size(); ++i) {
     if (points.HasPoint(i) && select({points.x[i], points.y[i], points.z[i]})) {

@@ -13,9 +13,10 @@ namespace declutter {
 using Lanes = float __attribute__((vector_size(PointImage::kLanes * sizeof(float))));
 using LaneMask = int32_t __attribute__((vector_size(PointImage::kLanes * sizeof(int32_t))));
 
-// Compiles a function for AVX2 too and picks at load time what the processor has. FMA stays out: it
-// rounds differently.
-#define DECLUTTER_FOR_EACH_PROCESSOR __attribute__((target_clones("avx2", "default")))
+// Compiles a function for newer processors too and picks at load time what this one has. Files that
+// use it are compiled with -ffp-contract=off: FMA rounds differently.
+#define DECLUTTER_FOR_EACH_PROCESSOR \
+  __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #define DECLUTTER_LANES inline __attribute__((always_inline))
 
 DECLUTTER_LANES void LoadLanes(const float* from, Lanes& to) { std::memcpy(&to, from, sizeof(to)); }

@@ -1,6 +1,7 @@
 #include "modules/feature_estimator/normals.h"
 
 #include <cmath>
+#include <utility>
 
 #include "modules/feature_estimator/lanes.h"
 
@@ -160,8 +161,8 @@ DECLUTTER_FOR_EACH_PROCESSOR void EstimateBlock(const PointImage& points, size_t
 }  // namespace
 
 NormalImage EstimateNormals(const PointImage& points, const Neighborhood& neighborhood,
-                            int min_neighbors) {
-  NormalImage normals;
+                            int min_neighbors, NormalImage recycled) {
+  NormalImage normals = std::move(recycled);
   for (auto* plane : {&normals.x, &normals.y, &normals.z, &normals.curvature}) {
     plane->assign(points.x.size(), 0.0F);
   }

@@ -18,6 +18,6 @@ struct NormalImage {
 // Unknown where fewer than min_neighbors points are near, the point itself included; a sample
 // stands for the points its stride skips.
 NormalImage EstimateNormals(const PointImage& points, const Neighborhood& neighborhood,
-                            int min_neighbors);
+                            int min_neighbors, NormalImage recycled = {});
 
 }  // namespace declutter

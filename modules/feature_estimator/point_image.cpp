@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace declutter {
 namespace {
@@ -18,17 +19,20 @@ float WindowSlope(float x, float y, float z, float radius_m) {
 
 }  // namespace
 
-PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min_margin_px) {
+PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min_margin_px,
+                          PointImage recycled) {
   const DepthImage& image = tabletop.objects;
   const PinholeCamera& camera = image.camera;
-  PointImage points;
+  PointImage points = std::move(recycled);
+  points.width = points.height = 0;
   points.thinning = std::max(tabletop.thinning, 1);
   const int k = points.thinning;
   int min_u = camera.width, max_u = -1, min_v = camera.height, max_v = -1;
   float max_slope = 0;
   for (int v = 0; v < (image.empty() ? 0 : camera.height); v += k) {
+    const uint16_t* row = &image.counts[static_cast<size_t>(v) * static_cast<size_t>(camera.width)];
     for (int u = 0; u < camera.width; u += k) {
-      if (image.CountAt(u, v) == 0) continue;
+      if (row[u] == 0) continue;
       min_u = std::min(min_u, u);
       max_u = std::max(max_u, u);
       min_v = std::min(min_v, v);
@@ -56,9 +60,11 @@ PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min
   points.y.assign(size, PointImage::kFar);
   points.z.assign(size, PointImage::kFar);
   for (int j = 0; j < points.height; ++j) {
+    const int v = min_v + j * k;
+    const uint16_t* row = &image.counts[static_cast<size_t>(v) * static_cast<size_t>(camera.width)];
     for (int i = 0; i < points.width; ++i) {
-      const int u = min_u + i * k, v = min_v + j * k;
-      if (image.CountAt(u, v) == 0) continue;
+      const int u = min_u + i * k;
+      if (row[u] == 0) continue;
       const Eigen::Vector3f p = image.PointAt(u, v).cast<float>();
       const size_t index = points.Index(i, j);
       points.x[index] = p.x();
@@ -69,22 +75,17 @@ PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min
   return points;
 }
 
-SphereWindow::SphereWindow(const PointImage& points, size_t begin, const Neighborhood& neighborhood)
+SphereWindow::SphereWindow(const PointImage& points, const float* x, size_t begin,
+                           const Neighborhood& neighborhood)
     : fx_(points.fx), inverse_fy_(1 / points.fy), margin_(points.margin) {
   for (size_t i = begin; i < begin + PointImage::kLanes; ++i) {
-    if (!points.HasPoint(i)) continue;
+    if (x[i] >= PointImage::kFar) continue;
     slope_ = std::max(slope_, WindowSlope(points.x[i], points.y[i], points.z[i],
                                           static_cast<float>(neighborhood.radius_m)));
   }
   num_rows_ = std::min(static_cast<int>(slope_ * points.fy), margin_);
   stride_ = 1 + num_rows_ / (neighborhood.dense_px + 1);
   num_rows_ = num_rows_ / stride_ * stride_;
-}
-
-int SphereWindow::Columns(int row) const {
-  const float y = static_cast<float>(row) * inverse_fy_;
-  const float columns = fx_ * std::sqrt(std::max(slope_ * slope_ - y * y, 0.0F));
-  return std::min(static_cast<int>(columns), margin_) / stride_ * stride_;
 }
 
 }  // namespace declutter

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -32,12 +34,13 @@ struct PointImage {
     return static_cast<size_t>(j + margin) * static_cast<size_t>(stride) +
            static_cast<size_t>(i + margin);
   }
-  bool HasPoint(size_t index) const { return z[index] < kFar; }
+  bool HasPoint(size_t index) const { return x[index] < kFar; }
 };
 
 // The points of all object pixels; windows of radius max_radius_m stay inside the margin, which is
-// at least min_margin_px wide.
-PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min_margin_px = 1);
+// at least min_margin_px wide. Here and below `recycled` gives its memory to the result.
+PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min_margin_px = 1,
+                          PointImage recycled = {});
 
 // Points within a metric radius.
 struct Neighborhood {
@@ -54,11 +57,19 @@ struct Neighborhood {
 class SphereWindow {
  public:
   // Around the points in elements [begin, begin + PointImage::kLanes) of one row.
-  SphereWindow(const PointImage& points, size_t begin, const Neighborhood& neighborhood);
+  SphereWindow(const PointImage& points, size_t begin, const Neighborhood& neighborhood)
+      : SphereWindow(points, points.x.data(), begin, neighborhood) {}
+  // Around those of them that have an x below kFar.
+  SphereWindow(const PointImage& points, const float* x, size_t begin,
+               const Neighborhood& neighborhood);
 
   int stride() const { return stride_; }
   int num_rows() const { return num_rows_; }
-  int Columns(int row) const;
+  int Columns(int row) const {
+    const float y = static_cast<float>(row) * inverse_fy_;
+    const float columns = fx_ * std::sqrt(std::max(slope_ * slope_ - y * y, 0.0F));
+    return std::min(static_cast<int>(columns), margin_) / stride_ * stride_;
+  }
 
  private:
   float slope_ = 0;  // half width of the window at z = 1

@@ -4,13 +4,21 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "modules/feature_estimator/lanes.h"
 
 namespace declutter {
 namespace {
 
-constexpr int kMaxBins = 16;
+constexpr size_t kMaxBins = 16;
+constexpr size_t kUsualBins = 5;
+
+// Of a bin without neighbours: outside [0, 1].
+constexpr float kNoMinimum = 2.0F;
+constexpr float kNoMaximum = -1.0F;
+
+constexpr int32_t kAllButSign = 0x7FFFFFFF;
 
 // Corrections of the systematic error of the binning, as in the descriptor's reference code.
 constexpr double kLargestAngleCorrection = 0.9;
@@ -37,18 +45,28 @@ double Radius(const std::array<Lanes, kMaxBins>& cosine, size_t lane, const RsdP
   return std::min(angles_distances / squared_angles, rsd.plane_radius_m);
 }
 
-DECLUTTER_FOR_EACH_PROCESSOR void CollectAngles(const PointImage& points,
-                                                const NormalImage& normals, size_t begin,
-                                                const RsdParameters& rsd, AngleBins* bins) {
-  const auto num_bins = static_cast<size_t>(rsd.num_bins);
-  bins->min_cosine.fill(2.0F + Lanes{});
-  bins->max_cosine.fill(-1.0F + Lanes{});
-  bins->min_cosine[0] = bins->max_cosine[0] = 1.0F + Lanes{};  // the point itself
-  std::array<float, kMaxBins + 1> squared_edge{};
-  for (size_t bin = 1; bin <= num_bins; ++bin) {
-    const double edge_m = rsd.radius_m * static_cast<double>(bin) / rsd.num_bins;
-    squared_edge[bin] = static_cast<float>(edge_m * edge_m);
+// Cosines that rounding made larger than 1; kNoMinimum stays.
+DECLUTTER_LANES void LimitToOne(Lanes& cosine) {
+  cosine = (cosine > 1) & (cosine < kNoMinimum) ? 1.0F + Lanes{} : cosine;
+}
+
+// kNumBins at least rsd.num_bins; bins beyond stay empty.
+template <size_t kNumBins>
+DECLUTTER_LANES void CollectAnglesInBins(const PointImage& points, const NormalImage& normals,
+                                         const float* known_x, size_t begin,
+                                         const RsdParameters& rsd, AngleBins* bins) {
+  // Local, so that they stay in registers.
+  Lanes min_cosine[kNumBins], max_cosine[kNumBins];
+  float squared_edge[kNumBins];  // upper
+  for (size_t bin = 0; bin < kNumBins; ++bin) {
+    const double edge_m = rsd.radius_m * static_cast<double>(bin + 1) / rsd.num_bins;
+    squared_edge[bin] = bin < static_cast<size_t>(rsd.num_bins)
+                            ? static_cast<float>(edge_m * edge_m)
+                            : squared_edge[bin - 1];
+    min_cosine[bin] = kNoMinimum + Lanes{};
+    max_cosine[bin] = kNoMaximum + Lanes{};
   }
+  min_cosine[0] = max_cosine[0] = 1.0F + Lanes{};  // the point itself
   Lanes px, py, pz, ax, ay, az;
   LoadLanes(&points.x[begin], px);
   LoadLanes(&points.y[begin], py);
@@ -62,7 +80,7 @@ DECLUTTER_FOR_EACH_PROCESSOR void CollectAngles(const PointImage& points,
     const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + row * points.stride;
     for (ptrdiff_t q = center - columns; q <= center + columns; ++q) {
       Lanes x, y, z, nx, ny, nz;
-      LoadLanes(points.x.data() + q, x);
+      LoadLanes(known_x + q, x);
       LoadLanes(points.y.data() + q, y);
       LoadLanes(points.z.data() + q, z);
       LoadLanes(normals.x.data() + q, nx);
@@ -72,46 +90,70 @@ DECLUTTER_FOR_EACH_PROCESSOR void CollectAngles(const PointImage& points,
       y -= py;
       z -= pz;
       const Lanes squared_distance = x * x + y * y + z * z;
-      Lanes cosine = nx * ax + ny * ay + nz * az;
-      cosine = cosine < 0 ? -cosine : cosine;
-      cosine = cosine > 1 ? 1.0F + Lanes{} : cosine;
-      const LaneMask is_known = (nx != 0) | (ny != 0) | (nz != 0);
-      for (size_t bin = 0; bin < num_bins; ++bin) {
-        const LaneMask is_in_bin = is_known & (squared_distance >= squared_edge[bin]) &
-                                   (squared_distance < squared_edge[bin + 1]);
-        Lanes& min_cosine = bins->min_cosine[bin];
-        Lanes& max_cosine = bins->max_cosine[bin];
-        min_cosine = is_in_bin & (cosine < min_cosine) ? cosine : min_cosine;
-        max_cosine = is_in_bin & (cosine > max_cosine) ? cosine : max_cosine;
+      const Lanes cosine = nx * ax + ny * ay + nz * az;
+      const LaneMask cosine_bits = reinterpret_cast<LaneMask>(cosine) & kAllButSign;
+      LaneMask is_below = {};
+#pragma GCC unroll 16
+      for (size_t bin = 0; bin < kNumBins; ++bin) {
+        // All bits set where the neighbour is in another bin: not a number, which no comparison
+        // takes.
+        const LaneMask is_out = (squared_distance >= squared_edge[bin]) | is_below;
+        is_below = squared_distance < squared_edge[bin];
+        const Lanes value = reinterpret_cast<Lanes>(cosine_bits | is_out);
+        min_cosine[bin] = value < min_cosine[bin] ? value : min_cosine[bin];
+        max_cosine[bin] = value > max_cosine[bin] ? value : max_cosine[bin];
       }
     }
+  }
+  for (size_t bin = 0; bin < kNumBins; ++bin) {
+    LimitToOne(min_cosine[bin]);
+    LimitToOne(max_cosine[bin]);
+    bins->min_cosine[bin] = min_cosine[bin];
+    bins->max_cosine[bin] = max_cosine[bin];
+  }
+}
+
+DECLUTTER_FOR_EACH_PROCESSOR void CollectAngles(const PointImage& points,
+                                                const NormalImage& normals, const float* known_x,
+                                                size_t begin, const RsdParameters& rsd,
+                                                AngleBins* bins) {
+  if (rsd.num_bins <= static_cast<int>(kUsualBins)) {
+    CollectAnglesInBins<kUsualBins>(points, normals, known_x, begin, rsd, bins);
+  } else {
+    CollectAnglesInBins<kMaxBins>(points, normals, known_x, begin, rsd, bins);
   }
 }
 
 }  // namespace
 
-std::vector<float> EstimateMinimumRadius(const PointImage& points, const NormalImage& normals,
-                                         const RsdParameters& rsd) {
-  if (rsd.num_bins < 1 || rsd.num_bins > kMaxBins) throw std::logic_error("RSD: number of bins");
-  std::vector<float> r_min(points.x.size(), 0.0F);
+RadiusImage EstimateMinimumRadius(const PointImage& points, const NormalImage& normals,
+                                  const RsdParameters& rsd, RadiusImage recycled) {
+  if (rsd.num_bins < 1 || rsd.num_bins > static_cast<int>(kMaxBins))
+    throw std::logic_error("RSD: number of bins");
+  RadiusImage image = std::move(recycled);
+  image.r_min.assign(points.x.size(), 0.0F);
+  image.known_x.resize(points.x.size());
+  for (size_t i = 0; i < points.x.size(); ++i) {
+    image.known_x[i] = normals.IsKnown(i) ? points.x[i] : PointImage::kFar;
+  }
   AngleBins bins;
   for (int j = 0; j < points.height; ++j) {
     for (int i = 0; i < points.width; ++i) {
       const size_t begin = points.Index(i, j);
       if (!normals.IsKnown(begin)) continue;
-      CollectAngles(points, normals, begin, rsd, &bins);
+      CollectAngles(points, normals, image.known_x.data(), begin, rsd, &bins);
       for (size_t lane = 0; lane < PointImage::kLanes; ++lane) {
         if (!normals.IsKnown(begin + lane)) continue;
         const double of_largest_angles = Radius(bins.min_cosine, lane, rsd);
         const double of_smallest_angles = Radius(bins.max_cosine, lane, rsd);
-        r_min[begin + lane] =
+        image.r_min[begin + lane] =
             static_cast<float>(std::min(kLargestAngleCorrection * of_largest_angles,
                                         kSmallestAngleCorrection * of_smallest_angles));
       }
       i += PointImage::kLanes - 1;
     }
   }
-  return r_min;
+  return image;
 }
 
 }  // namespace declutter

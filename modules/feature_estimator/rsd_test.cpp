@@ -21,7 +21,7 @@ float MinimumRadiusInTheMiddle(const Tabletop& tabletop) {
   const PointImage points = MakePointImage(tabletop, kRadius_m);
   const NormalImage normals = EstimateNormals(points, {kRadius_m}, 8);
   const std::vector<float> r_min =
-      EstimateMinimumRadius(points, normals, {kRadius_m, kNumBins, kPlaneRadius_m});
+      EstimateMinimumRadius(points, normals, {kRadius_m, kNumBins, kPlaneRadius_m}).r_min;
   return r_min[points.Index(points.width / 2, points.height / 2)];
 }
 
@@ -41,7 +41,7 @@ TEST(MinimumRadius, AgreesWithPclOnTheSameNormals) {
   const PointImage points = MakePointImage(Observe(surface, 0.0015), kRadius_m);
   const NormalImage normals = EstimateNormals(points, {kRadius_m}, 8);
   const std::vector<float> r_min =
-      EstimateMinimumRadius(points, normals, {kRadius_m, kNumBins, kPlaneRadius_m});
+      EstimateMinimumRadius(points, normals, {kRadius_m, kNumBins, kPlaneRadius_m}).r_min;
 
   auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   auto cloud_normals = std::make_shared<pcl::PointCloud<pcl::Normal>>();
