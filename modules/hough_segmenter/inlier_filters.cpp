@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace declutter {
@@ -9,30 +10,50 @@ namespace {
 
 using Span = std::pair<float, float>;
 
-// Clusters of the inliers along one coordinate: values further apart than max_gap fall into two.
-// Returns the cluster's span for each, heaviest first.
+// One value for each inlier.
 template <typename Coordinate>
-std::vector<Span> Clusters(const std::vector<SideCell>& cells, const std::vector<int>& inliers,
-                           float max_gap, Coordinate coordinate) {
-  std::vector<std::pair<float, float>> values;  // coordinate, weight
+std::vector<float> Values(const std::vector<SideCell>& cells, const std::vector<int>& inliers,
+                          Coordinate coordinate) {
+  std::vector<float> values;
   values.reserve(inliers.size());
-  for (int i : inliers) {
-    const SideCell& cell = cells[static_cast<size_t>(i)];
-    values.emplace_back(coordinate(cell), cell.weight);
+  for (int i : inliers) values.push_back(coordinate(cells[static_cast<size_t>(i)]));
+  return values;
+}
+
+// Clusters of the inliers along one coordinate: where nothing lies for max_gap (to an eighth of
+// it), a new one begins. Returns the clusters' spans, heaviest first.
+std::vector<Span> Clusters(const std::vector<SideCell>& cells, const std::vector<int>& inliers,
+                           const std::vector<float>& values, float max_gap) {
+  constexpr int kBinsPerGap = 8;
+  if (values.empty()) return {};
+  struct Bin {
+    float weight = 0;
+    Span span = {std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+  };
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const float bins_per_unit = kBinsPerGap / max_gap;
+  std::vector<Bin> bins(static_cast<size_t>((*high - *low) * bins_per_unit) + 1);
+  for (size_t k = 0; k < values.size(); ++k) {
+    Bin& bin = bins[static_cast<size_t>((values[k] - *low) * bins_per_unit)];
+    bin.weight += cells[static_cast<size_t>(inliers[k])].weight;
+    bin.span = {std::min(bin.span.first, values[k]), std::max(bin.span.second, values[k])};
   }
-  std::sort(values.begin(), values.end());
-  std::vector<std::pair<float, Span>> clusters;  // weight, span
-  for (const auto& [value, weight] : values) {
-    if (clusters.empty() || value - clusters.back().second.second > max_gap) {
-      clusters.push_back({0.0f, {value, value}});
+  std::vector<Bin> clusters;
+  int num_empty = kBinsPerGap;
+  for (const Bin& bin : bins) {
+    if (bin.weight == 0) {
+      ++num_empty;
+      continue;
     }
-    clusters.back().first += weight;
-    clusters.back().second.second = value;
+    if (num_empty >= kBinsPerGap) clusters.push_back({0, bin.span});
+    num_empty = 0;
+    clusters.back().weight += bin.weight;
+    clusters.back().span.second = bin.span.second;
   }
   std::stable_sort(clusters.begin(), clusters.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+                   [](const Bin& x, const Bin& y) { return x.weight > y.weight; });
   std::vector<Span> spans;
-  for (const auto& cluster : clusters) spans.push_back(cluster.second);
+  for (const Bin& cluster : clusters) spans.push_back(cluster.span);
   return spans;
 }
 
@@ -43,30 +64,41 @@ void KeepIf(const std::vector<SideCell>& cells, std::vector<int>* inliers, Condi
                  inliers->end());
 }
 
+// Keeps the inliers whose values lie in one of the spans.
+void KeepInside(const std::vector<float>& values, const std::vector<Span>& spans,
+                std::vector<int>* inliers) {
+  size_t num = 0;
+  for (size_t k = 0; k < values.size(); ++k) {
+    const auto is_inside = [x = values[k]](const Span& s) { return x >= s.first && x <= s.second; };
+    if (std::any_of(spans.begin(), spans.end(), is_inside)) (*inliers)[num++] = (*inliers)[k];
+  }
+  inliers->resize(num);
+}
+
 }  // namespace
 
 void KeepOneRun(const std::vector<SideCell>& cells, float max_gap_m, FeatureMode mode,
                 LineFit* fit) {
   const Eigen::Vector2f t = fit->model.tangent();
-  const auto along = [&t](const SideCell& cell) { return t.dot(cell.p); };
-  const std::vector<Span> runs = Clusters(cells, fit->inliers, max_gap_m, along);
-  if (runs.empty()) return;
-  if (mode == FeatureMode::kPaper && runs.size() > 1) {
+  const std::vector<float> along =
+      Values(cells, fit->inliers, [&t](const SideCell& cell) { return t.dot(cell.p); });
+  std::vector<Span> runs = Clusters(cells, fit->inliers, along, max_gap_m);
+  if (runs.size() <= 1) return;
+  if (mode == FeatureMode::kPaper) {
     fit->inliers.clear();
     return;
   }
-  KeepIf(cells, &fit->inliers, [&](const SideCell& cell) {
-    return along(cell) >= runs[0].first && along(cell) <= runs[0].second;
-  });
+  runs.resize(1);
+  KeepInside(along, runs, &fit->inliers);
 }
 
 void KeepOneHeight(const std::vector<SideCell>& cells, float max_gap_m, CircleFit* fit) {
-  const auto height = [](const SideCell& cell) { return cell.z; };
-  const std::vector<Span> heights = Clusters(cells, fit->inliers, 2 * max_gap_m, height);
-  if (heights.empty()) return;
-  KeepIf(cells, &fit->inliers, [&](const SideCell& cell) {
-    return cell.z >= heights[0].first && cell.z <= heights[0].second;
-  });
+  const std::vector<float> z =
+      Values(cells, fit->inliers, [](const SideCell& cell) { return cell.z; });
+  std::vector<Span> heights = Clusters(cells, fit->inliers, z, 2 * max_gap_m);
+  if (heights.size() <= 1) return;
+  heights.resize(1);
+  KeepInside(z, heights, &fit->inliers);
 }
 
 void KeepArcs(const std::vector<SideCell>& cells, float max_gap_m, size_t max_arcs,
@@ -77,20 +109,16 @@ void KeepArcs(const std::vector<SideCell>& cells, float max_gap_m, size_t max_ar
     const SideCell& cell = cells[static_cast<size_t>(i)];
     mean += cell.weight * (cell.p - fit->model.c).normalized();
   }
-  const float reference = std::atan2(mean.y(), mean.x());
-  const auto angle = [&](const SideCell& cell) {
+  const Eigen::Vector2f across(-mean.y(), mean.x());
+  const std::vector<float> angles = Values(cells, fit->inliers, [&](const SideCell& cell) {
     const Eigen::Vector2f q = cell.p - fit->model.c;
-    return std::remainder(std::atan2(q.y(), q.x()) - reference, 2 * static_cast<float>(M_PI));
-  };
+    return std::atan2(across.dot(q), mean.dot(q));
+  });
   const float max_gap_rad = 2 * max_gap_m / std::max(fit->model.r, max_gap_m);
-  std::vector<Span> arcs = Clusters(cells, fit->inliers, max_gap_rad, angle);
+  std::vector<Span> arcs = Clusters(cells, fit->inliers, angles, max_gap_rad);
   if (arcs.size() > max_arcs) {
     arcs.resize(max_arcs);
-    KeepIf(cells, &fit->inliers, [&](const SideCell& cell) {
-      const float a = angle(cell);
-      return std::any_of(arcs.begin(), arcs.end(),
-                         [a](const Span& arc) { return a >= arc.first && a <= arc.second; });
-    });
+    KeepInside(angles, arcs, &fit->inliers);
   }
   fit->model.arc = 0;
   for (const Span& arc : arcs) fit->model.arc += arc.second - arc.first;
@@ -98,33 +126,39 @@ void KeepArcs(const std::vector<SideCell>& cells, float max_gap_m, size_t max_ar
 
 void KeepOneRadius(const std::vector<SideCell>& cells, float max_step_m, CircleFit* fit) {
   constexpr float kMinShare = 0.15f;  // of the points on either side of a step
-  std::vector<int> by_height = fit->inliers;
-  const auto height = [&](int i) { return cells[static_cast<size_t>(i)].z; };
-  std::sort(by_height.begin(), by_height.end(),
-            [&](int a, int b) { return std::pair(height(a), a) < std::pair(height(b), b); });
-  const auto sums = [&](int i) {
-    const SideCell& cell = cells[static_cast<size_t>(i)];
-    return Eigen::Vector2f(cell.weight, cell.weight * (cell.p - fit->model.c).norm());
+  constexpr float kLayer = 0.004f;    // [m] of height
+  if (fit->inliers.empty()) return;
+  const std::vector<float> z =
+      Values(cells, fit->inliers, [](const SideCell& cell) { return cell.z; });
+  const auto [low, high] = std::minmax_element(z.begin(), z.end());
+  const auto layer_of = [low = *low](float height) {
+    return static_cast<size_t>((height - low) / kLayer);
   };
-  Eigen::Vector2f total = Eigen::Vector2f::Zero();
-  for (int i : by_height) total += sums(i);
+  std::vector<Eigen::Vector2f> layers(layer_of(*high) + 1, Eigen::Vector2f::Zero());
+  Eigen::Vector2f total = Eigen::Vector2f::Zero();  // weight, weight times radius
+  for (size_t k = 0; k < z.size(); ++k) {
+    const SideCell& cell = cells[static_cast<size_t>(fit->inliers[k])];
+    const Eigen::Vector2f sums(cell.weight, cell.weight * (cell.p - fit->model.c).norm());
+    layers[layer_of(z[k])] += sums;
+    total += sums;
+  }
   Eigen::Vector2f below = Eigen::Vector2f::Zero();
   float largest_step = max_step_m;
-  float split_height = 0;
+  size_t split = 0;
   bool keep_below = false;
-  for (size_t k = 0; k + 1 < by_height.size(); ++k) {
-    below += sums(by_height[k]);
+  for (size_t layer = 0; layer + 1 < layers.size(); ++layer) {
+    below += layers[layer];
     const Eigen::Vector2f above = total - below;
     if (below.x() < kMinShare * total.x() || above.x() < kMinShare * total.x()) continue;
     const float step = std::abs(below.y() / below.x() - above.y() / above.x());
     if (step <= largest_step) continue;
     largest_step = step;
-    split_height = height(by_height[k]);
+    split = layer;
     keep_below = below.x() >= above.x();
   }
   if (largest_step <= max_step_m) return;
   KeepIf(cells, &fit->inliers,
-         [&](const SideCell& cell) { return (cell.z <= split_height) == keep_below; });
+         [&](const SideCell& cell) { return (layer_of(cell.z) <= split) == keep_below; });
 }
 
 void KeepFlat(const std::vector<SideCell>& cells, float max_curvature, LineFit* fit) {

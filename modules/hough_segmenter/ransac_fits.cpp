@@ -9,12 +9,11 @@
 namespace declutter {
 namespace {
 
-constexpr float kBucketSide = 0.05f;        // [m] squares in which the partner of a sample is drawn
-constexpr size_t kMaxScoredCells = 400;     // cells that decide between samples
-constexpr float kMinBaseline = 0.008f;      // [m] of the two cells of a sample
-constexpr int kMaxDraws = 12;               // of a partner, before a sample is given up
-constexpr float kMinKappaLength = 0.045f;   // [m] of a line whose curvature says something
-constexpr double kMinCosUnfiltered = -1e6;  // so far below every cosine that all agree alike
+constexpr float kBucketSide = 0.05f;       // [m] squares in which the partner of a sample is drawn
+constexpr size_t kMaxScoredCells = 400;    // cells that decide between samples
+constexpr float kMinBaseline = 0.008f;     // [m] of the two cells of a sample
+constexpr int kMaxDraws = 12;              // of a partner, before a sample is given up
+constexpr float kMinKappaLength = 0.045f;  // [m] of a line whose curvature says something
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
 constexpr float kMaxRadiusStep = 0.003f;  // [m] between the lower and upper part of a cylinder
 
@@ -25,9 +24,10 @@ SideFitter::SideFitter(const HoughSegmenterConfig& config, FeatureMode mode,
     : config_(config),
       mode_(mode),
       cells_(cells),
-      min_cos_(static_cast<float>(config.filter_normals() ? std::cos(config.max_normal_angle_rad())
-                                                          : kMinCosUnfiltered)),
-      random_(seed) {
+      arrays_(config),
+      random_(seed),
+      subsample_arrays_(config) {
+  for (const SideCell& cell : cells) arrays_.Add(cell);
   if (cells.empty()) return;
   Eigen::Vector2f low = cells[0].p;
   Eigen::Vector2f high = low;
@@ -51,11 +51,14 @@ void SideFitter::Subsample(const std::vector<char>& is_free) {
   for (size_t i = 0; i < cells_.size(); ++i) {
     if (is_free[i]) subsample_.push_back(static_cast<int>(i));
   }
-  if (subsample_.size() <= kMaxScoredCells) return;
-  for (size_t i = 0; i < kMaxScoredCells; ++i) {
-    std::swap(subsample_[i], subsample_[i + random_() % (subsample_.size() - i)]);
+  if (subsample_.size() > kMaxScoredCells) {
+    for (size_t i = 0; i < kMaxScoredCells; ++i) {
+      std::swap(subsample_[i], subsample_[i + random_() % (subsample_.size() - i)]);
+    }
+    subsample_.resize(kMaxScoredCells);
   }
-  subsample_.resize(kMaxScoredCells);
+  subsample_arrays_.Clear();
+  for (int i : subsample_) subsample_arrays_.Add(cells_[static_cast<size_t>(i)]);
 }
 
 std::optional<std::pair<int, int>> SideFitter::SamplePair(const std::vector<char>& is_free) {
@@ -78,25 +81,6 @@ std::optional<std::pair<int, int>> SideFitter::SamplePair(const std::vector<char
     if (is_free[static_cast<size_t>(b)] && baseline > kMinBaseline) return std::pair(a, b);
   }
   return std::nullopt;
-}
-
-float SideFitter::Agreement(float distance_m, float cos_angle, float sigma) const {
-  const float max_distance =
-      std::max(static_cast<float>(config_.inlier_distance_m()), 2.5f * sigma);
-  if (distance_m >= max_distance || cos_angle <= min_cos_) return 0;
-  const float d = distance_m / max_distance;
-  return (1 - d * d) * (cos_angle - min_cos_) / (1 - min_cos_);
-}
-
-float SideFitter::Agreement(const SideCell& cell, const LineModel& line) const {
-  return Agreement(std::abs(line.n.dot(cell.p) - line.rho), line.n.dot(cell.n), cell.sigma);
-}
-
-float SideFitter::Agreement(const SideCell& cell, const CircleModel& circle) const {
-  const Eigen::Vector2f q = cell.p - circle.c;
-  const float distance = q.norm();
-  if (distance < 1e-6f) return 0;
-  return Agreement(std::abs(distance - circle.r), q.dot(cell.n) / distance, cell.sigma);
 }
 
 void SideFitter::Filter(LineFit* fit) const {
@@ -137,12 +121,16 @@ bool SideFitter::IsPossible(const CircleFit& fit) const {
 }
 
 template <typename Model>
-Fit<Model> SideFitter::Inliers(const Model& model, const std::vector<char>& is_free) const {
+Fit<Model> SideFitter::Inliers(const Model& model, const std::vector<char>& is_free,
+                               std::vector<float>* agreements) const {
   Fit<Model> fit;
   fit.model = model;
+  arrays_.Agreements(model, agreements);
   for (size_t i = 0; i < cells_.size(); ++i) {
-    if (is_free[i] && Agreement(cells_[i], model) > 0) fit.inliers.push_back(static_cast<int>(i));
+    if ((*agreements)[i] > 0 && is_free[i]) fit.inliers.push_back(static_cast<int>(i));
   }
+  fit.num_points = NumPoints(cells_, fit.inliers);
+  if (fit.num_points < static_cast<float>(config_.min_inliers())) return fit;
   Filter(&fit);
   fit.num_points = NumPoints(cells_, fit.inliers);
   return fit;
@@ -152,16 +140,17 @@ template <typename Model>
 std::optional<Fit<Model>> SideFitter::RefitTo(const Model& model,
                                               const std::vector<char>& is_free) const {
   const auto min_points = static_cast<float>(config_.min_inliers());
-  Fit<Model> fit = Inliers(model, is_free);
+  std::vector<float> agreements;
+  Fit<Model> fit = Inliers(model, is_free, &agreements);
   if (fit.num_points < min_points) return std::nullopt;
   FitToInliers(cells_, &fit);
-  fit = Inliers(fit.model, is_free);
+  fit = Inliers(fit.model, is_free, &agreements);
   if (fit.num_points < min_points) return std::nullopt;
   SetExtent(cells_, &fit);
   if (!IsPossible(fit)) return std::nullopt;
   for (int i : fit.inliers) {
-    const SideCell& cell = cells_[static_cast<size_t>(i)];
-    fit.support += cell.weight * Agreement(cell, fit.model);
+    const auto index = static_cast<size_t>(i);
+    fit.support += cells_[index].weight * agreements[index];
   }
   return fit;
 }
@@ -180,14 +169,12 @@ template <typename Model, typename Sample>
 std::optional<Model> SideFitter::BestSample(Sample sample) const {
   std::optional<Model> best;
   float best_score = 0;
+  std::vector<float> agreements;
   for (int i = 0; i < config_.num_samples(); ++i) {
     const std::optional<Model> model = sample();
     if (!model) continue;
-    float score = 0;
-    for (int c : subsample_) {
-      const SideCell& cell = cells_[static_cast<size_t>(c)];
-      score += cell.weight * Agreement(cell, *model);
-    }
+    subsample_arrays_.Agreements(*model, &agreements);
+    const float score = subsample_arrays_.Support(agreements);
     if (score <= best_score) continue;
     best_score = score;
     best = model;
@@ -203,7 +190,7 @@ std::optional<LineFit> SideFitter::FitLine(const std::vector<char>& is_free) {
     if (!pair) return std::nullopt;
     const SideCell& a = cells_[static_cast<size_t>(pair->first)];
     const LineModel line = LineThrough(a, cells_[static_cast<size_t>(pair->second)]);
-    if (Agreement(a, line) == 0) return std::nullopt;
+    if (line.n.dot(a.n) <= arrays_.min_cos()) return std::nullopt;
     return line;
   });
   if (!best) return std::nullopt;

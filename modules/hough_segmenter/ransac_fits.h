@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "modules/geometry/feature_cloud.h"
+#include "modules/hough_segmenter/cell_arrays.h"
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
 #include "modules/hough_segmenter/model_fits.h"
 
@@ -39,7 +40,8 @@ class SideFitter {
 
   // The filtered free inliers of a model.
   template <typename Model>
-  Fit<Model> Inliers(const Model& model, const std::vector<char>& is_free) const;
+  Fit<Model> Inliers(const Model& model, const std::vector<char>& is_free,
+                     std::vector<float>* agreements) const;
   void Filter(LineFit* fit) const;
   void Filter(CircleFit* fit) const;
 
@@ -50,17 +52,13 @@ class SideFitter {
   bool IsPossible(const LineFit& fit) const;
   bool IsPossible(const CircleFit& fit) const;
 
-  // How well a cell agrees with a model: 0 no inlier, 1 exactly on it with the same normal.
-  float Agreement(const SideCell& cell, const LineModel& model) const;
-  float Agreement(const SideCell& cell, const CircleModel& model) const;
-  float Agreement(float distance_m, float cos_angle, float sigma) const;
-
   const HoughSegmenterConfig& config_;
   FeatureMode mode_;
   const std::vector<SideCell>& cells_;
-  float min_cos_;
+  CellArrays arrays_;
   std::mt19937_64 random_;
-  std::vector<int> subsample_;             // cells that samples are scored on
+  std::vector<int> subsample_;  // cells that samples are scored on
+  CellArrays subsample_arrays_;
   std::vector<std::vector<int>> buckets_;  // cells of each square of the table
   std::vector<int> bucket_of_cell_;
   int num_bucket_columns_ = 0;

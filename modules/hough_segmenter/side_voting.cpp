@@ -1,5 +1,7 @@
 #include "modules/hough_segmenter/side_voting.h"
 
+#include <algorithm>
+
 #include "modules/hough_segmenter/parameter_space.h"
 
 namespace declutter {
@@ -12,6 +14,11 @@ struct Votes {
 
 void Remove(const std::vector<int>& inliers, std::vector<char>* is_free) {
   for (int i : inliers) (*is_free)[static_cast<size_t>(i)] = 0;
+}
+
+bool AreFree(const std::vector<int>& inliers, const std::vector<char>& is_free) {
+  return std::all_of(inliers.begin(), inliers.end(),
+                     [&](int i) { return is_free[static_cast<size_t>(i)]; });
 }
 
 // Turns the highest peak of a space into a detection and removes what it explains.
@@ -30,16 +37,21 @@ void TakePeak(const SideFitter& fitter, int component,
 
 SideFits FitSides(SideFitter* fitter, std::vector<char> is_free) {
   SideFits fits;
+  std::optional<LineFit> line;
+  std::optional<CircleFit> circle;
   while (true) {
-    std::optional<LineFit> line = fitter->FitLine(is_free);
-    std::optional<CircleFit> circle = fitter->FitCircle(is_free);
+    // A fit that lost to the other shape stays in the race as long as its inliers do.
+    if (!line || !AreFree(line->inliers, is_free)) line = fitter->FitLine(is_free);
+    if (!circle || !AreFree(circle->inliers, is_free)) circle = fitter->FitCircle(is_free);
     if (!line && !circle) return fits;
     if (line && (!circle || line->support >= circle->support)) {
       Remove(line->inliers, &is_free);
       fits.lines.push_back(std::move(*line));
+      line.reset();
     } else {
       Remove(circle->inliers, &is_free);
       fits.circles.push_back(std::move(*circle));
+      circle.reset();
     }
   }
 }
