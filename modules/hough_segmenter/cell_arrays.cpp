@@ -16,18 +16,35 @@ CellArrays::CellArrays(const HoughSegmenterConfig& config)
       min_cos_(static_cast<float>(config.filter_normals() ? std::cos(config.max_normal_angle_rad())
                                                           : kMinCosUnfiltered)) {}
 
-void CellArrays::Clear() {
-  for (auto* array : {&px_, &py_, &nx_, &ny_, &weight_, &inverse_limit_}) array->clear();
+void CellArrays::Resize(size_t num) {
+  for (auto* array : {&px_, &py_, &nx_, &ny_, &weight_, &inverse_limit_}) array->resize(num);
 }
 
-void CellArrays::Add(const SideCell& cell) {
-  const float limit = std::max(inlier_distance_m_, 2.5f * cell.sigma);
-  px_.push_back(cell.p.x());
-  py_.push_back(cell.p.y());
-  nx_.push_back(cell.n.x());
-  ny_.push_back(cell.n.y());
-  weight_.push_back(cell.weight);
-  inverse_limit_.push_back(1 / (limit * limit));
+void CellArrays::Assign(const std::vector<SideCell>& cells) {
+  Resize(cells.size());
+  for (size_t i = 0; i < cells.size(); ++i) {
+    const SideCell& cell = cells[i];
+    const float limit = std::max(inlier_distance_m_, 2.5f * cell.sigma);
+    px_[i] = cell.p.x();
+    py_[i] = cell.p.y();
+    nx_[i] = cell.n.x();
+    ny_[i] = cell.n.y();
+    weight_[i] = cell.weight;
+    inverse_limit_[i] = 1 / (limit * limit);
+  }
+}
+
+void CellArrays::Gather(const CellArrays& from, const std::vector<int>& indices) {
+  Resize(indices.size());
+  for (size_t k = 0; k < indices.size(); ++k) {
+    const auto i = static_cast<size_t>(indices[k]);
+    px_[k] = from.px_[i];
+    py_[k] = from.py_[i];
+    nx_[k] = from.nx_[i];
+    ny_[k] = from.ny_[i];
+    weight_[k] = from.weight_[i];
+    inverse_limit_[k] = from.inverse_limit_[i];
+  }
 }
 
 inline float CellArrays::Agreement(float squared_distance, float cos_angle, size_t i) const {

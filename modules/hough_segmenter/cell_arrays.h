@@ -14,8 +14,9 @@ class CellArrays {
  public:
   explicit CellArrays(const HoughSegmenterConfig& config);
 
-  void Clear();
-  void Add(const SideCell& cell);
+  void Assign(const std::vector<SideCell>& cells);
+  // The cells of another one with these indices.
+  void Gather(const CellArrays& from, const std::vector<int>& indices);
   size_t size() const { return px_.size(); }
 
   // Of the angle between the normals of an inlier and of its model.
@@ -30,6 +31,7 @@ class CellArrays {
   float Support(const std::vector<float>& agreements) const;
 
  private:
+  void Resize(size_t num);
   float Agreement(float squared_distance, float cos_angle, size_t i) const;
 
   float inlier_distance_m_;

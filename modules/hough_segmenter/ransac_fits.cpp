@@ -27,7 +27,7 @@ SideFitter::SideFitter(const HoughSegmenterConfig& config, FeatureMode mode,
       arrays_(config),
       random_(seed),
       subsample_arrays_(config) {
-  for (const SideCell& cell : cells) arrays_.Add(cell);
+  arrays_.Assign(cells);
   if (cells.empty()) return;
   Eigen::Vector2f low = cells[0].p;
   Eigen::Vector2f high = low;
@@ -53,20 +53,19 @@ void SideFitter::Subsample(const std::vector<char>& is_free) {
   }
   if (subsample_.size() > kMaxScoredCells) {
     for (size_t i = 0; i < kMaxScoredCells; ++i) {
-      std::swap(subsample_[i], subsample_[i + random_() % (subsample_.size() - i)]);
+      std::swap(subsample_[i], subsample_[i + random_(subsample_.size() - i)]);
     }
     subsample_.resize(kMaxScoredCells);
   }
-  subsample_arrays_.Clear();
-  for (int i : subsample_) subsample_arrays_.Add(cells_[static_cast<size_t>(i)]);
+  subsample_arrays_.Gather(arrays_, subsample_);
 }
 
 std::optional<std::pair<int, int>> SideFitter::SamplePair(const std::vector<char>& is_free) {
-  const int a = subsample_[random_() % subsample_.size()];
+  const int a = subsample_[random_(subsample_.size())];
   const int bucket = bucket_of_cell_[static_cast<size_t>(a)];
   for (int draw = 0; draw < kMaxDraws; ++draw) {
-    const int dx = static_cast<int>(random_() % 3) - 1;
-    const int dy = static_cast<int>(random_() % 3) - 1;
+    const int dx = static_cast<int>(random_(3)) - 1;
+    const int dy = static_cast<int>(random_(3)) - 1;
     const int column = bucket % num_bucket_columns_ + dx;
     const int neighbour = bucket + dy * num_bucket_columns_ + dx;
     if (column < 0 || column >= num_bucket_columns_ || neighbour < 0 ||
@@ -75,7 +74,7 @@ std::optional<std::pair<int, int>> SideFitter::SamplePair(const std::vector<char
     }
     const auto& candidates = buckets_[static_cast<size_t>(neighbour)];
     if (candidates.empty()) continue;
-    const int b = candidates[random_() % candidates.size()];
+    const int b = candidates[random_(candidates.size())];
     const float baseline =
         (cells_[static_cast<size_t>(a)].p - cells_[static_cast<size_t>(b)].p).norm();
     if (is_free[static_cast<size_t>(b)] && baseline > kMinBaseline) return std::pair(a, b);

@@ -2,13 +2,13 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <random>
 #include <vector>
 
 #include "modules/geometry/feature_cloud.h"
 #include "modules/hough_segmenter/cell_arrays.h"
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
 #include "modules/hough_segmenter/model_fits.h"
+#include "modules/hough_segmenter/random_index.h"
 
 namespace declutter {
 
@@ -56,7 +56,7 @@ class SideFitter {
   FeatureMode mode_;
   const std::vector<SideCell>& cells_;
   CellArrays arrays_;
-  std::mt19937_64 random_;
+  RandomIndex random_;
   std::vector<int> subsample_;  // cells that samples are scored on
   CellArrays subsample_arrays_;
   std::vector<std::vector<int>> buckets_;  // cells of each square of the table

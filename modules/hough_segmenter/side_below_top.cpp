@@ -21,13 +21,16 @@ class Footprint {
   explicit Footprint(const Solid& solid)
       : is_round_(solid.shape == Shape::kCylinder),
         half_(0.5f * solid.size.head<2>().cast<float>()),
+        reach_(half_.norm()),
         centre_(solid.X_CO.translation().head<2>().cast<float>()),
         x_axis_(solid.X_CO.linear().col(0).head<2>().cast<float>()) {}
 
   // True for a point on the side whose normal, as far as it is horizontal, is that of the side.
   bool IsOnSide(const TablePoint& point) const {
     const float tolerance = std::max(kMaxDistance, 2.5f * point.sigma);
-    const Eigen::Vector2f p = ToO(point.p_T.head<2>() - centre_);
+    const Eigen::Vector2f p_T = point.p_T.head<2>() - centre_;
+    if (p_T.cwiseAbs().maxCoeff() > reach_ + tolerance) return false;
+    const Eigen::Vector2f p = ToO(p_T);
     const Eigen::Vector2f n = ToO(point.n_T.head<2>()).normalized();
     if (is_round_) {
       const float distance = p.norm();
@@ -50,6 +53,7 @@ class Footprint {
 
   bool is_round_;
   Eigen::Vector2f half_;
+  float reach_;  // [m] from the centre to the farthest point
   Eigen::Vector2f centre_;
   Eigen::Vector2f x_axis_;
 };

@@ -128,7 +128,7 @@ class Selection {
           !Intersect(candidate.hypothesis.solid, space, config_.max_shared_volume())) {
         continue;
       }
-      RefineIfNoWorse(observation_, &candidate.hypothesis.solid, &candidate.evidence);
+      RefineIfNoWorse(observation_, observation_, &candidate.hypothesis.solid, &candidate.evidence);
       candidate.is_refined = true;
       candidate.is_out = !IsPlausible(config_, candidate.evidence);
       candidate.num_blockers = 0;

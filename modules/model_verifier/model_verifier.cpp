@@ -69,11 +69,12 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   const NormalImage normals(frame.image);
   const Observation observation{frame.image, normals, support};
   const Observation coarse{frame.image, normals, support, kSelectionStep};
-  for (const Candidate& candidate : SelectModels(config_, hypotheses.hypotheses, coarse)) {
+  for (Candidate& candidate : SelectModels(config_, hypotheses.hypotheses, coarse)) {
     ObjectModel object;
     object.solid = candidate.hypothesis.solid;
-    RayEvidence before = CastRays(object.solid, observation);
-    if (config_.refine()) RefineIfNoWorse(observation, &object.solid, &before);
+    if (config_.refine()) {
+      RefineIfNoWorse(observation, coarse, &object.solid, &candidate.evidence);
+    }
     object.evidence = candidate.hypothesis.evidence;
     object.num_votes = candidate.hypothesis.num_votes;
     list.objects.push_back(object);

@@ -171,7 +171,7 @@ TEST(RefineIfNoWorse, KeepsASolidThatAFitWouldLeadAstray) {
   Solid solid = truth;
   RayEvidence evidence = CastRays(solid, observation);
   const double before = evidence.Balance();
-  RefineIfNoWorse(observation, &solid, &evidence);
+  RefineIfNoWorse(observation, observation, &solid, &evidence);
   EXPECT_GE(evidence.Balance(), before - 0.02 * evidence.num_explained());
   EXPECT_EQ(evidence.Balance(), CastRays(solid, observation).Balance());
   EXPECT_NEAR(solid.radius(), truth.radius(), 0.006);

@@ -6,6 +6,7 @@
 namespace declutter {
 namespace {
 
+constexpr int kStep = 2;                   // [px] between normals that are computed
 constexpr double kReach = 0.012;           // [m] from a pixel to those its gradient is taken from
 constexpr float kMaxInverseJump = 0.020f;  // [1/m] 7 counts of disparity: another surface
 
@@ -17,6 +18,8 @@ NormalImage::NormalImage(const DepthImage& image)
       normals_(image.counts.size(), Eigen::Vector3f::Zero()) {}
 
 const Eigen::Vector3f& NormalImage::At(int u, int v) const {
+  u -= u % kStep;
+  v -= v % kStep;
   const size_t i =
       static_cast<size_t>(v) * static_cast<size_t>(image_.camera.width) + static_cast<size_t>(u);
   if (!is_known_[i]) {

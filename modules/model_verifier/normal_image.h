@@ -7,7 +7,7 @@
 
 namespace declutter {
 
-// Surface normals of a depth image, each computed when it is first asked for.
+// Surface normals of a depth image, one for 2 x 2 pixels, each computed when it is first asked for.
 class NormalImage {
  public:
   // image must outlive this.

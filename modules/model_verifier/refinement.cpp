@@ -246,10 +246,11 @@ Solid Refine(const Solid& solid, const Observation& observation) {
                                     : RefineCylinder(solid, observation);
 }
 
-void RefineIfNoWorse(const Observation& observation, Solid* solid, RayEvidence* evidence) {
+void RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
+                     RayEvidence* evidence) {
   constexpr double kMaxLoss = 0.02;  // of the explained pixels: noise of the balance
-  const Solid refined = Refine(*solid, observation);
-  RayEvidence refined_evidence = CastRays(refined, observation);
+  const Solid refined = Refine(*solid, fitted);
+  RayEvidence refined_evidence = CastRays(refined, judging);
   if (refined_evidence.Balance() < evidence->Balance() - kMaxLoss * evidence->num_explained()) {
     return;
   }

@@ -12,8 +12,10 @@ namespace declutter {
 // value.
 Solid Refine(const Solid& solid, const Observation& observation);
 
-// Refines a solid where that does not lose what speaks for it: with few points, or little of a
-// cylinder's arc, a fit can go astray. evidence is that of the solid, and is renewed with it.
-void RefineIfNoWorse(const Observation& observation, Solid* solid, RayEvidence* evidence);
+// Refines a solid on one observation where that does not lose what speaks for it on another: with
+// few points, or little of a cylinder's arc, a fit can go astray. evidence is what was observed of
+// the solid on the second, and is renewed with it.
+void RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
+                     RayEvidence* evidence);
 
 }  // namespace declutter

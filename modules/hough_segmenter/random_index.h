@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace declutter {
+
+// A cheap stream of random indices (SplitMix64 by Steele, Lea and Flood, 2014): the same on every
+// machine, and without the divisions of a standard distribution, where samples are drawn by the
+// hundred thousand.
+class RandomIndex {
+ public:
+  explicit RandomIndex(uint64_t seed) : state_(seed) {}
+
+  // In [0, num), num > 0 and below 2^32.
+  size_t operator()(size_t num) {
+    state_ += 0x9E3779B97F4A7C15ull;
+    uint64_t x = state_;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
+    return static_cast<size_t>(((x ^ (x >> 31)) >> 32) * num >> 32);
+  }
+
+ private:
+  uint64_t state_;
+};
+
+}  // namespace declutter
