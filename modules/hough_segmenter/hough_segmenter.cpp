@@ -18,6 +18,39 @@ uint64_t ComponentSeed(uint64_t seed, int64_t utime, int component) {
   return x ^ (x >> 27);
 }
 
+// True when two hypotheses in T differ by less than the verifier's refinement moves them.
+bool AreAlike(const Hypothesis& a, const Hypothesis& b) {
+  constexpr double kMaxShift = 0.002;    // [m] of the centre
+  constexpr double kMaxGrowth = 0.004;   // [m] of an extent
+  constexpr double kMinCosine = 0.9986;  // of the axes: 3 degrees
+  if (a.solid.shape != b.solid.shape || a.evidence != b.evidence ||
+      (a.solid.X_CO.translation() - b.solid.X_CO.translation()).cwiseAbs().maxCoeff() > kMaxShift) {
+    return false;
+  }
+  const Eigen::Matrix3d axes =
+      (a.solid.X_CO.linear().transpose() * b.solid.X_CO.linear()).cwiseAbs();
+  if (a.solid.shape == Shape::kCylinder) {
+    return axes(2, 2) > kMinCosine &&
+           (a.solid.size - b.solid.size).cwiseAbs().maxCoeff() < kMaxGrowth;
+  }
+  // The same box may have x and y the other way round.
+  const bool is_turned = axes(0, 1) > axes(0, 0);
+  const Eigen::Vector3d size(is_turned ? b.solid.size.y() : b.solid.size.x(),
+                             is_turned ? b.solid.size.x() : b.solid.size.y(), b.solid.size.z());
+  return std::max(axes(0, 0), axes(0, 1)) > kMinCosine &&
+         (a.solid.size - size).cwiseAbs().maxCoeff() < kMaxGrowth;
+}
+
+// Keeps the first of hypotheses that are alike.
+void DropAlike(std::vector<Hypothesis>* hypotheses) {
+  std::vector<Hypothesis> kept;
+  for (const Hypothesis& hypothesis : *hypotheses) {
+    const auto is_alike = [&](const Hypothesis& other) { return AreAlike(hypothesis, other); };
+    if (std::none_of(kept.begin(), kept.end(), is_alike)) kept.push_back(hypothesis);
+  }
+  *hypotheses = std::move(kept);
+}
+
 }  // namespace
 
 HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config, SideDetector detect)
@@ -54,13 +87,14 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
   if (list.mode == FeatureMode::kDefault) {
     propose(FindLyingCylinders(config_, points, surfaces.tops, config_.seed()));
   }
+  std::stable_sort(
+      list.hypotheses.begin(), list.hypotheses.end(),
+      [](const Hypothesis& a, const Hypothesis& b) { return a.num_inliers > b.num_inliers; });
+  DropAlike(&list.hypotheses);
   const Eigen::Isometry3d X_CT = X_TC.inverse();
   for (Hypothesis& hypothesis : list.hypotheses) {
     hypothesis.solid.X_CO = X_CT * hypothesis.solid.X_CO;
   }
-  std::stable_sort(
-      list.hypotheses.begin(), list.hypotheses.end(),
-      [](const Hypothesis& a, const Hypothesis& b) { return a.num_inliers > b.num_inliers; });
   return list;
 }
 
