@@ -78,23 +78,29 @@ class Selection {
   }
 
  private:
-  // Gives each selected candidate's place to the one that explains most when all others stay: some
-  // of the pixels that a candidate was selected for, later ones explain as well. True when one
-  // changed.
+  // Gives each selected candidate's place to those that explain more when all others stay: some of
+  // the pixels that it was selected for, later ones explain as well, and two may fill the place of
+  // one better. True when one changed.
   bool Exchange() {
     bool has_changed = false;
     for (const size_t old : std::vector<size_t>(selected_)) {
       Release(old);
-      const auto best = Best();
-      const bool is_better =
-          best && (candidates_[old].num_blockers > 0 || candidates_[old].is_out ||
-                   candidates_[*best].gain > kMinImprovement * candidates_[old].gain);
-      Select(is_better ? *best : old);
-      has_changed |= is_better && *best != old;
-    }
-    while (const auto best = Best()) {
-      Select(*best);
-      has_changed = true;
+      const double old_gain = Gain(candidates_[old]);
+      double new_gain = 0;
+      std::vector<size_t> instead;
+      candidates_[old].is_out = true;
+      while (const auto best = Best()) {
+        new_gain += candidates_[*best].gain;
+        instead.push_back(*best);
+        Select(*best);
+      }
+      candidates_[old].is_out = false;
+      if (new_gain > kMinImprovement * old_gain) {
+        has_changed = true;
+        continue;
+      }
+      for (size_t i : instead) Release(i);
+      Select(old);
     }
     return has_changed;
   }
@@ -180,8 +186,7 @@ class Selection {
       num_explaining_[static_cast<size_t>(pixel.pixel)] += change;
     }
     for (Candidate& candidate : candidates_) {
-      if (!candidate.is_selected && !candidate.is_out && &candidate != &selected &&
-          AreRivals(candidate, selected)) {
+      if (!candidate.is_selected && &candidate != &selected && AreRivals(candidate, selected)) {
         candidate.num_blockers += change;
       }
     }

@@ -13,7 +13,7 @@ struct Candidate {
   Hypothesis hypothesis;
   RayEvidence evidence;
   bool is_refined = false;
-  bool is_out = false;  // implausible after its refinement
+  bool is_out = false;  // does not take part
   bool is_selected = false;
   int num_blockers = 0;  // selected candidates in its space
   double gain = 0;       // [px] explained by it alone, less what speaks against it
