@@ -35,7 +35,7 @@ TEST(Repeatability, SeedsChangeTheVotesButNoMeasureByMoreThanAHundredthOfAMillim
     votes.insert(votes_of_seed);
   }
   EXPECT_EQ(measured.num_right, 10 * 4);
-  EXPECT_THAT(votes, testing::SizeIs(testing::Gt(5)));
+  EXPECT_THAT(votes, testing::SizeIs(testing::Gt(2)));
   EXPECT_LE(measured.LargestRangeM(), 0.01e-3);
 }
 
