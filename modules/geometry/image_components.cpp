@@ -70,10 +70,12 @@ ImageComponents LabelComponents(int width, int height, const std::vector<uint8_t
       const int u = static_cast<int>(p - row);
       const float value = values[p];
       const auto join = [&](int j) {
-        if (label[j] < 0 || std::abs(values[static_cast<size_t>(j)] - value) > max_step) return;
+        // Mostly, the neighbours seen before have the same label already.
+        if (label[j] < 0 || label[j] == label[i]) return;
+        if (std::abs(values[static_cast<size_t>(j)] - value) > max_step) return;
         if (label[i] < 0) {
           label[i] = label[j];
-        } else if (label[i] != label[j]) {
+        } else {
           sets.Join(label[i], label[j]);
         }
       };

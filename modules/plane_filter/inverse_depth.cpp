@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "modules/geometry/marked_pixels.h"
+#include "modules/plane_filter/pixel_kernels.h"
 
 namespace declutter {
 
@@ -50,36 +51,21 @@ Plane InversePlane::ToPlane() const {
 
 PixelMask PlaneInliers(const InverseDepth& image, const InversePlane& plane, float band) {
   PixelMask mask(image.values.size());
-  const float* x = image.ray_x.data();
   for (int v = 0; v < image.height; ++v) {
     const float row = plane.b * image.ray_y[static_cast<size_t>(v)] + plane.c;
-    const float* values = &image.values[image.Index(0, v)];
-    uint8_t* marked = &mask[image.Index(0, v)];
-    for (int u = 0; u < image.width; ++u) {
-      const float residual = values[u] - (plane.a * x[u] + row);
-      marked[u] = (values[u] > 0) & (std::abs(residual) <= band);
-    }
+    MarkPlaneInliers(image.ray_x.data(), &image.values[image.Index(0, v)],
+                     static_cast<size_t>(image.width), plane.a, row, band,
+                     &mask[image.Index(0, v)]);
   }
   return mask;
 }
 
 PixelMask Amid(const InverseDepth& image, const PixelMask& mask, int min_marked) {
   PixelMask amid(mask.size());
-  std::vector<uint8_t> column_sums(static_cast<size_t>(image.width));
-  uint8_t* sums = column_sums.data();
-  const auto least = static_cast<uint8_t>(min_marked);
   for (int v = 1; v + 1 < image.height; ++v) {
     const uint8_t* middle = &mask[image.Index(0, v)];
-    const uint8_t* above = middle - image.width;
-    const uint8_t* below = middle + image.width;
-    for (int u = 0; u < image.width; ++u) {
-      sums[u] = static_cast<uint8_t>(above[u] + middle[u] + below[u]);
-    }
-    uint8_t* out = &amid[image.Index(0, v)];
-    for (int u = 1; u + 1 < image.width; ++u) {
-      const auto num = static_cast<uint8_t>(sums[u - 1] + sums[u] + sums[u + 1]);
-      out[u] = num >= least ? middle[u] : uint8_t{0};
-    }
+    MarkAmid(middle - image.width, middle, middle + image.width, static_cast<size_t>(image.width),
+             min_marked, &amid[image.Index(0, v)]);
   }
   return amid;
 }

@@ -12,6 +12,10 @@ namespace {
 // Average and spread over all marked pixels need about as many of them.
 constexpr double kStatisticsPixels = 1000;
 
+bool HasMarked(const uint8_t* row, int width) {
+  return std::memchr(row, 1, static_cast<size_t>(width)) != nullptr;
+}
+
 // The points of an image, unmarked ones left out, with a margin that no window leaves. Distances
 // are over the depth of the point that they are measured from.
 class Points {
@@ -31,6 +35,7 @@ class Points {
     for (int v = 0; v < image.height; ++v) {
       const float* from = &image.values[image.Index(0, v)];
       const uint8_t* marked = &mask[image.Index(0, v)];
+      if (!HasMarked(marked, image.width)) continue;
       float* to = &values_[Index(0, v)];
       for (int u = 0; u < image.width; ++u) to[u] = from[u] * static_cast<float>(marked[u]);
     }
@@ -118,7 +123,7 @@ PixelMask RemoveOutliers(const InverseDepth& image, const PixelMask& mask,
   std::vector<int32_t> num_near(static_cast<size_t>(image.width) + kKernelPadding);
   for (int v = 0; v < image.height; ++v) {
     const uint8_t* marked = &mask[image.Index(0, v)];
-    if (std::memchr(marked, 1, static_cast<size_t>(image.width)) == nullptr) continue;
+    if (!HasMarked(marked, image.width)) continue;
     points.CountNear(v, limit, &num_near);
     for (int u = 0; u < image.width; ++u) {
       if (!marked[u] || !points.Has(u, v)) continue;

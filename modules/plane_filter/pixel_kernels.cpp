@@ -44,6 +44,38 @@ int CountPlaneInliers(const float* x, const float* y, const float* values, size_
   return static_cast<int>(count);
 }
 
+void MarkPlaneInliers(const float* x, const float* values, size_t num, float a, float row,
+                      float band, uint8_t* marked) {
+  const Floats f;
+  const Ints i32;
+  const Bytes bytes;
+  const auto va = hn::Set(f, a), vrow = hn::Set(f, row), limit = hn::Set(f, band);
+  for (size_t begin = 0; begin < num; begin += hn::Lanes(f)) {
+    const size_t u = HWY_MIN(begin, num - hn::Lanes(f));
+    const auto value = hn::LoadU(f, values + u);
+    const auto residual = hn::Sub(value, hn::Add(hn::Mul(va, hn::LoadU(f, x + u)), vrow));
+    const auto is_inlier = hn::And(hn::Gt(value, hn::Zero(f)), hn::Le(hn::Abs(residual), limit));
+    const auto one = hn::IfThenElseZero(hn::RebindMask(i32, is_inlier), hn::Set(i32, 1));
+    hn::StoreU(hn::DemoteTo(bytes, one), bytes, marked + u);
+  }
+}
+
+void MarkAmid(const uint8_t* above, const uint8_t* middle, const uint8_t* below, size_t num,
+              int min_marked, uint8_t* marked) {
+  const hn::CappedTag<uint8_t, kKernelPadding> u8;
+  const auto least = hn::Set(u8, static_cast<uint8_t>(min_marked));
+  for (size_t begin = 1; begin + 1 < num; begin += hn::Lanes(u8)) {
+    const size_t u = HWY_MIN(begin, num - 1 - hn::Lanes(u8));
+    auto sum = hn::Zero(u8);
+    for (const uint8_t* row : {above + u, middle + u, below + u}) {
+      sum = hn::Add(sum, hn::Add(hn::LoadU(u8, row - 1),
+                                 hn::Add(hn::LoadU(u8, row), hn::LoadU(u8, row + 1))));
+    }
+    const auto is_amid = hn::Eq(hn::Max(sum, least), sum);
+    hn::StoreU(hn::IfThenElseZero(is_amid, hn::LoadU(u8, middle + u)), u8, marked + u);
+  }
+}
+
 void ClassifyHeights(const float* x, const float* values, size_t num, float a, float row,
                      const HeightLimits& limits, uint8_t* classes) {
   const Floats f;
@@ -229,6 +261,8 @@ namespace declutter {
 namespace {
 
 HWY_EXPORT(CountPlaneInliers);
+HWY_EXPORT(MarkPlaneInliers);
+HWY_EXPORT(MarkAmid);
 HWY_EXPORT(ClassifyHeights);
 HWY_EXPORT(MarkContained);
 HWY_EXPORT(CountNear);
@@ -242,6 +276,32 @@ int CountPlaneInliers(const float* x, const float* y, const float* values, size_
 }
 
 // A row with fewer elements than a vector is copied into a longer one.
+void MarkPlaneInliers(const float* x, const float* values, size_t num, float a, float row,
+                      float band, uint8_t* marked) {
+  const auto mark = HWY_DYNAMIC_DISPATCH(MarkPlaneInliers);
+  if (num >= kKernelPadding) return mark(x, values, num, a, row, band, marked);
+  std::array<float, kKernelPadding> wide_x{}, wide_values{};
+  std::array<uint8_t, kKernelPadding> wide_marked{};
+  std::copy_n(x, num, wide_x.begin());
+  std::copy_n(values, num, wide_values.begin());
+  mark(wide_x.data(), wide_values.data(), kKernelPadding, a, row, band, wide_marked.data());
+  std::copy_n(wide_marked.begin(), num, marked);
+}
+
+void MarkAmid(const uint8_t* above, const uint8_t* middle, const uint8_t* below, size_t num,
+              int min_marked, uint8_t* marked) {
+  constexpr size_t kMinNum = kKernelPadding + 2;
+  const auto mark = HWY_DYNAMIC_DISPATCH(MarkAmid);
+  if (num >= kMinNum) return mark(above, middle, below, num, min_marked, marked);
+  std::array<uint8_t, kMinNum> wide_above{}, wide_middle{}, wide_below{}, wide_marked{};
+  std::copy_n(above, num, wide_above.begin());
+  std::copy_n(middle, num, wide_middle.begin());
+  std::copy_n(below, num, wide_below.begin());
+  mark(wide_above.data(), wide_middle.data(), wide_below.data(), kMinNum, min_marked,
+       wide_marked.data());
+  if (num > 2) std::copy_n(wide_marked.begin() + 1, num - 2, marked + 1);
+}
+
 void ClassifyHeights(const float* x, const float* values, size_t num, float a, float row,
                      const HeightLimits& limits, uint8_t* classes) {
   const auto classify = HWY_DYNAMIC_DISPATCH(ClassifyHeights);

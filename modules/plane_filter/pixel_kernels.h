@@ -16,6 +16,15 @@ inline constexpr size_t kKernelPadding = 16;
 int CountPlaneInliers(const float* x, const float* y, const float* values, size_t num, float a,
                       float b, float c, float band, int max_uncounted);
 
+// Per pixel of a row: 1 where it is measured and 1 / z is within band of a x + row.
+void MarkPlaneInliers(const float* x, const float* values, size_t num, float a, float row,
+                      float band, uint8_t* marked);
+
+// Per pixel of a row but the first and the last: 1 where it is marked, as are at least min_marked
+// pixels of itself and its 8 neighbours. Marks are 1.
+void MarkAmid(const uint8_t* above, const uint8_t* middle, const uint8_t* below, size_t num,
+              int min_marked, uint8_t* marked);
+
 // Heights from which a pixel belongs to a foot and to an object, and below which to anything: as
 // differences of 1 / z from the plane, and as slopes, heights over the camera's.
 struct HeightLimits {

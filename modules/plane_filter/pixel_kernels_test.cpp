@@ -104,6 +104,38 @@ TEST_P(PixelKernels, CountInliersOfAPlane) {
   EXPECT_EQ(count(static_cast<int>(kWidth)), 0);
 }
 
+TEST_P(PixelKernels, MarkInliersOfAPlaneAlsoInAShortRow) {
+  for (const size_t num : {kWidth, size_t{5}}) {
+    std::vector<uint8_t> expected;
+    for (size_t u = 0; u < num; ++u) {
+      const float plane = 0.1f * x()[u] + 1.2f;
+      expected.push_back(Row(3)[u] > 0 && std::abs(Row(3)[u] - plane) <= 0.01f);
+    }
+    std::vector<uint8_t> marked(num, 9);
+    MarkPlaneInliers(x(), Row(3), num, 0.1f, 1.2f, 0.01f, marked.data());
+    EXPECT_EQ(marked, expected);
+    EXPECT_THAT(marked, testing::IsSupersetOf({0, 1}));
+  }
+}
+
+TEST_P(PixelKernels, MarkPixelsAmidMarkedOnesAlsoInAShortRow) {
+  for (const size_t num : {kWidth, size_t{19}, size_t{5}, size_t{2}}) {
+    std::vector<std::vector<uint8_t>> rows(3);
+    for (size_t v = 0; v < 3; ++v) {
+      for (size_t u = 0; u < num; ++u) rows[v].push_back(Row(v)[u] > 0);
+    }
+    std::vector<uint8_t> expected(num, 9);
+    for (size_t u = 1; u + 1 < num; ++u) {
+      int sum = 0;
+      for (const auto& row : rows) sum += row[u - 1] + row[u] + row[u + 1];
+      expected[u] = rows[1][u] && sum >= 7;
+    }
+    std::vector<uint8_t> marked(num, 9);
+    MarkAmid(rows[0].data(), rows[1].data(), rows[2].data(), num, 7, marked.data());
+    EXPECT_EQ(marked, expected);
+  }
+}
+
 TEST_P(PixelKernels, ClassifyHeightsAlsoOfAShortRow) {
   const HeightLimits limits{0.004f, 0.010f, 0.003f, 0.008f, 0.015f};
   for (const size_t num : {kWidth, size_t{5}}) {

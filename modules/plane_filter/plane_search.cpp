@@ -143,6 +143,7 @@ std::vector<PlaneCandidate> FindPlanes(const InverseDepth& grid, const PlaneFilt
       3, static_cast<int>(config.min_plane_fraction() * static_cast<double>(grid.values.size())));
   InverseDepth rest = grid;
   PixelList measured;
+  const PixelMask all_pixels(grid.values.size(), 1);
   const int max_attempts = 2 * config.max_planes();
   for (int attempt = 0; attempt < max_attempts; ++attempt) {
     if (static_cast<int>(candidates.size()) == config.max_planes()) break;
@@ -151,7 +152,7 @@ std::vector<PlaneCandidate> FindPlanes(const InverseDepth& grid, const PlaneFilt
         BestSample(rest, measured, config.num_samples(), band, &random);
     if (!plane) break;
     for (int i = 0; plane && i < 3; ++i) {
-      plane = FitInliers(rest, PixelMask(rest.values.size(), 1), *plane, band);
+      plane = FitInliers(rest, all_pixels, *plane, band);
     }
     if (!plane) continue;
     const PixelMask inliers = PlaneInliers(rest, *plane, band);
