@@ -95,6 +95,8 @@ std::optional<SensorFrame> LiveReader::ReadSensor() {
     events_.rejected(error.what());
     return std::nullopt;
   }
+  const std::string failure = sensor_->TakeFailure();
+  if (!failure.empty()) events_.failed(failure);
   if (frame) {
     silent_since_us_.reset();
   } else if (!sensor_->is_connected()) {

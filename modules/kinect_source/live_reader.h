@@ -18,6 +18,7 @@ struct SensorEvents {
   std::function<void(const std::string&)> trouble;   // what is wrong from now on; empty: nothing
   std::function<void(int64_t)> skipped;              // so many frames were not read
   std::function<void(const std::string&)> rejected;  // a frame was of no use
+  std::function<void(const std::string&)> failed;    // for good, though frames come
   std::function<void(const std::string&)> note;      // worth a line
 };
 

@@ -22,7 +22,9 @@ struct World {
   bool is_damaged = false;
   int num_opened = 0;
 
-  std::vector<std::string> troubles, rejected, notes;
+  std::string failure;  // what the sensor tells next
+
+  std::vector<std::string> troubles, rejected, failed, notes;
   int64_t num_skipped = 0;
 };
 
@@ -39,6 +41,7 @@ class FakeSensor : public Sensor {
     return frame;
   }
   bool is_connected() const override { return world_->is_connected; }
+  std::string TakeFailure() override { return std::exchange(world_->failure, ""); }
   std::string description() const override { return "fake"; }
 
  private:
@@ -67,6 +70,7 @@ class LiveReaderTest : public testing::Test {
     const SensorEvents events{[this](const std::string& text) { world_.troubles.push_back(text); },
                               [this](int64_t num_frames) { world_.num_skipped += num_frames; },
                               [this](const std::string& why) { world_.rejected.push_back(why); },
+                              [this](const std::string& text) { world_.failed.push_back(text); },
                               [this](const std::string& text) { world_.notes.push_back(text); }};
     return std::make_unique<LiveReader>(
         config, open, [this] { return world_.now_us; }, events);
@@ -176,6 +180,14 @@ TEST_F(LiveReaderTest, SaysWhenTheSensorMeasuresNothing) {
   world_.frames = {Frame(81)};
   ReadFor(reader.get(), 0.1);
   EXPECT_EQ(world_.troubles.back(), "");
+}
+
+TEST_F(LiveReaderTest, PassesOnWhatHasFailedAndGoesOn) {
+  const auto reader = Reader();
+  world_.failure = "disk full";
+  world_.frames = {Frame(1)};
+  EXPECT_EQ(ReadFor(reader.get(), 0.1).size(), 1u);
+  EXPECT_THAT(world_.failed, ElementsAre("disk full"));
 }
 
 TEST_F(LiveReaderTest, NotesItsFiguresAtTheEnd) {

@@ -59,6 +59,7 @@ class KinectSourceModule {
     return {[this](const std::string& text) { bus_.SetTrouble(text); },
             [this](int64_t num_frames) { bus_.CountSkipped(num_frames); },
             [this](const std::string& why) { bus_.Reject("sensor", why); },
+            [this](const std::string& text) { bus_.Fail(text); },
             [this](const std::string& text) { bus_.Note(text); }};
   }
 

@@ -27,7 +27,8 @@ struct SensorRequest {
   bool color = true;
   bool auto_exposure = true;
   bool auto_white_balance = true;
-  std::string record_oni;  // a new .oni file; empty: none
+  std::string record_oni;         // a new .oni file; empty: none
+  double record_min_free_mb = 0;  // on the disk, else nothing is recorded any more
 };
 
 // There is no such sensor, or it cannot be opened now.
@@ -59,6 +60,9 @@ class Sensor {
 
   // False when the device is gone: then nothing comes any more.
   virtual bool is_connected() const = 0;
+
+  // What has gone wrong beside the frames since the last call; empty: nothing.
+  virtual std::string TakeFailure() = 0;
 
   // Model and URI, and what of the request it goes without, for people.
   virtual std::string description() const = 0;

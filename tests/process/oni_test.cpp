@@ -76,6 +76,15 @@ TEST_F(OniTest, GoesOnInAnotherFileAfterTheSensorWasUnplugged) {
   EXPECT_GE(ReadLog().depth.size(), 38u);
 }
 
+TEST_F(OniTest, RecordsNothingOnAFullDiskAndGoesOn) {
+  const Outcome outcome = Run(Live(WriteSensor("")),
+                              "num_frames: 5 record_min_free_mb: 1e9 record_oni: \"" + oni_ + "\"");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("a.oni: recording ends: less than 1000000000 MB free"));
+  EXPECT_FALSE(fs::exists(oni_));
+  EXPECT_EQ(ReadLog().depth.size(), 5u);
+}
+
 TEST_F(OniTest, OverwritesNothing) {
   folder_.Write("a.oni", "precious");
   const Outcome outcome = Run(Live(WriteSensor("")), "record_oni: \"" + oni_ + "\"");

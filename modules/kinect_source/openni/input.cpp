@@ -39,6 +39,7 @@ SensorRequest RequestOf(const KinectSourceConfig& config, const Calibration& cal
   request.auto_exposure = config.auto_exposure();
   request.auto_white_balance = config.auto_white_balance();
   request.record_oni = config.record_oni();
+  request.record_min_free_mb = config.record_min_free_mb();
   if (IsLive(config.input()) && rate_hz != request.rate_hz) {
     throw std::invalid_argument("rate_hz of a sensor is a whole number");
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "modules/kinect_source/openni/frame_copy.h"
@@ -17,6 +18,7 @@ using openni::VideoStream;
 constexpr int kUsualWidth = 640, kUsualHeight = 480, kUsualRate_hz = 30;
 // Longer than a period of any mode: by then the colour of a depth image has come.
 constexpr int kColorWait_ms = 50;
+constexpr int kFramesPerDiskCheck = 30;
 
 std::string ModeText(const SensorRequest& request) {
   std::string text;
@@ -63,7 +65,8 @@ std::optional<VideoMode> ChooseMode(const VideoStream& stream, const SensorReque
 
 }  // namespace
 
-OpenniSensor::OpenniSensor(const std::string& uri, const SensorRequest& request) : uri_(uri) {
+OpenniSensor::OpenniSensor(const std::string& uri, const SensorRequest& request)
+    : uri_(uri), record_path_(request.record_oni), record_min_free_mb_(request.record_min_free_mb) {
   if (device_.open(uri.c_str()) != STATUS_OK) {
     throw NoSensor(uri + ": cannot be opened: " + OpenniError());
   }
@@ -71,7 +74,8 @@ OpenniSensor::OpenniSensor(const std::string& uri, const SensorRequest& request)
     OpenDepth(request);
     if (request.color) OpenColor(request);
     if (device_.isFile()) ReadOnDemand();
-    if (!request.record_oni.empty()) Record(request.record_oni);
+    GuardDisk();
+    if (!record_path_.empty()) Record();
     Start();
   } catch (...) {
     if (device_.isFile()) LetPlayerBegin();
@@ -158,14 +162,27 @@ void OpenniSensor::ReadOnDemand() {
   playback->setSpeed(-1);  // a frame for each that is waited for
 }
 
-void OpenniSensor::Record(const std::string& path) {
+void OpenniSensor::Record() {
   const auto attach = [this](VideoStream& stream) {
     return !stream.isValid() || recorder_.attach(stream) == STATUS_OK;
   };
-  if (recorder_.create(path.c_str()) != STATUS_OK || !attach(depth_) || !attach(color_) ||
+  if (recorder_.create(record_path_.c_str()) != STATUS_OK || !attach(depth_) || !attach(color_) ||
       recorder_.start() != STATUS_OK) {
-    throw UnsupportedRequest(path + ": cannot be recorded: " + OpenniError());
+    throw UnsupportedRequest(record_path_ + ": cannot be recorded: " + OpenniError());
   }
+}
+
+// The recorder says nothing of a full disk, and leaves a file that cannot be read.
+void OpenniSensor::GuardDisk() {
+  if (record_path_.empty()) return;
+  std::error_code error;
+  const auto folder = std::filesystem::absolute(record_path_).parent_path();
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  if (error || 1e-6 * static_cast<double>(space.available) >= record_min_free_mb_) return;
+  failure_ = record_path_ + ": recording ends: less than " +
+             std::to_string(std::llround(record_min_free_mb_)) + " MB free on the disk";
+  recorder_.stop();
+  record_path_.clear();
 }
 
 void OpenniSensor::Start() {
@@ -212,6 +229,7 @@ std::optional<SensorFrame> OpenniSensor::Read(double timeout_s) {
 }
 
 void OpenniSensor::AddDepth(const openni::VideoFrameRef& frame) {
+  if (frame.getFrameIndex() % kFramesPerDiskCheck == 0) GuardDisk();
   SensorFrame read;
   read.device_us = static_cast<int64_t>(frame.getTimestamp());
   read.index = frame.getFrameIndex();

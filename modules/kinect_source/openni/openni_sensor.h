@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "modules/kinect_source/color_match.h"
 #include "modules/kinect_source/sensor.h"
@@ -21,6 +22,7 @@ class OpenniSensor : public Sensor, private openni::OpenNI::DeviceDisconnectedLi
 
   std::optional<SensorFrame> Read(double timeout_s) override;
   bool is_connected() const override { return is_connected_; }
+  std::string TakeFailure() override { return std::exchange(failure_, ""); }
   std::string description() const override;
 
   // Depth frames of a file; 0 for a device.
@@ -33,7 +35,8 @@ class OpenniSensor : public Sensor, private openni::OpenNI::DeviceDisconnectedLi
   void OpenColor(const SensorRequest& request);
   void SetMode(const SensorRequest& request, openni::VideoStream* stream, const char* what);
   void ReadOnDemand();
-  void Record(const std::string& path);
+  void Record();
+  void GuardDisk();
   void Start();
   void AddDepth(const openni::VideoFrameRef& frame);
   void AddColor(const openni::VideoFrameRef& frame);
@@ -44,6 +47,9 @@ class OpenniSensor : public Sensor, private openni::OpenNI::DeviceDisconnectedLi
   openni::VideoStream depth_;
   openni::VideoStream color_;
   openni::Recorder recorder_;
+  std::string record_path_;  // empty: nothing is recorded
+  double record_min_free_mb_;
+  std::string failure_;
   std::optional<ColorMatch> match_;
   std::optional<SensorFrame> ready_;
   std::string lacks_;  // what of the request it goes without
