@@ -1,7 +1,6 @@
 #include "modules/plane_filter/inverse_depth.h"
 
 #include <Eigen/Dense>
-#include <cmath>
 
 #include "modules/geometry/marked_pixels.h"
 #include "modules/plane_filter/pixel_kernels.h"
@@ -74,22 +73,24 @@ std::optional<InversePlane> FitInliers(const InverseDepth& image, const PixelMas
                                        const InversePlane& plane, float band) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+  PixelMask inliers(static_cast<size_t>(image.width));
   for (int v = 0; v < image.height; ++v) {
     const float y = image.ray_y[static_cast<size_t>(v)];
     const float row = plane.b * y + plane.c;
     const float* values = &image.values[image.Index(0, v)];
     const uint8_t* marked = &mask[image.Index(0, v)];
     float n = 0, sum_x = 0, sum_xx = 0, sum_r = 0, sum_rx = 0;
-    ForEachMarked(marked, 0, static_cast<size_t>(image.width), [&](size_t u) {
+    MarkPlaneInliers(image.ray_x.data(), values, inliers.size(), plane.a, row, band,
+                     inliers.data());
+    ForEachMarked(inliers.data(), 0, inliers.size(), [&](size_t u) {
+      if (!marked[u]) return;
       const float x = image.ray_x[u];
       const float residual = values[u] - (plane.a * x + row);
-      const bool inlier = values[u] > 0 && std::abs(residual) <= band;
-      const float weight = inlier ? 1.0f : 0.0f;
-      n += weight;
-      sum_x += weight * x;
-      sum_xx += weight * x * x;
-      sum_r += weight * residual;
-      sum_rx += weight * residual * x;
+      n += 1;
+      sum_x += x;
+      sum_xx += x * x;
+      sum_r += residual;
+      sum_rx += residual * x;
     });
     Eigen::Matrix3d row_information;
     row_information << sum_xx, sum_x * y, sum_x, sum_x * y, n * y * y, n * y, sum_x, n * y, n;
