@@ -44,7 +44,7 @@ is_back() { new_pid=$(pid_of "$1") && [[ -n "$new_pid" && "$new_pid" != "$old_pi
 
 nothing_left() { [[ -z "$(processes)" ]]; }
 
-newest_log() { find "$work"/logs/*/ -name 'run.lcmlog.*' | sort | tail -n 1; }
+newest_log() { find "$work"/logs/*/ -name 'run.lcmlog.*' | sort -V | tail -n 1; }
 
 is_recording() { [[ "$(newest_log)" != "$old_log" && $(stat -c %s "$(newest_log)") -gt 200000 ]]; }
 

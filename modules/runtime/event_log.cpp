@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <filesystem>
@@ -44,7 +45,7 @@ std::runtime_error EventLogReader::Broken(const std::string& what) const {
 }
 
 std::optional<LogEvent> EventLogReader::Next() {
-  if (offset_ == size_) return std::nullopt;
+  if (offset_ >= size_) return std::nullopt;
   std::array<std::uint8_t, kHeaderBytes> header;
   if (size_ - offset_ < kHeaderBytes) throw Broken("cut off");
   file_.read(reinterpret_cast<char*>(header.data()), kHeaderBytes);
@@ -64,9 +65,31 @@ std::optional<LogEvent> EventLogReader::Next() {
   file_.read(event.channel.data(), channel_bytes);
   file_.read(reinterpret_cast<char*>(event.message.data()), message_bytes);
   if (!file_) throw Broken("cannot be read");
+  last_ = offset_;
   offset_ = end;
   ++num_events_;
   return event;
+}
+
+bool EventLogReader::SkipDamage() {
+  constexpr std::uint64_t kBlock = 1 << 16;
+  constexpr std::uint64_t kSyncBytes = 4;
+  file_.clear();
+  std::uint64_t begin = std::max(last_, floor_) + 1;
+  for (; begin + kHeaderBytes <= size_; begin += kBlock - kSyncBytes + 1) {
+    Bytes block(std::min(kBlock, size_ - begin));
+    file_.seekg(static_cast<std::streamoff>(begin));
+    file_.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size()));
+    if (!file_) return false;
+    for (std::uint64_t i = 0; i + kSyncBytes <= block.size(); ++i) {
+      if (begin + i == offset_) continue;
+      if (static_cast<std::uint32_t>(ReadInteger(block.data() + i, kSyncBytes)) != kSync) continue;
+      offset_ = floor_ = begin + i;
+      file_.seekg(static_cast<std::streamoff>(offset_));
+      return true;
+    }
+  }
+  return false;
 }
 
 EventLogWriter::EventLogWriter(const std::string& path)

@@ -25,6 +25,13 @@ class EventLogReader {
   // log; every complete event before that place was returned.
   std::optional<LogEvent> Next();
 
+  // After Next() has thrown: goes to the next place where an event may begin, also within the event
+  // returned last, as its length may be what is damaged. False when there is none.
+  bool SkipDamage();
+
+  std::uint64_t offset() const { return offset_; }  // of the next event [byte]
+  std::uint64_t size() const { return size_; }      // of the file [byte]
+
  private:
   std::runtime_error Broken(const std::string& what) const;
 
@@ -32,6 +39,8 @@ class EventLogReader {
   std::ifstream file_;
   std::uint64_t size_ = 0;    // of the file [byte]
   std::uint64_t offset_ = 0;  // of the next event [byte]
+  std::uint64_t last_ = 0;    // of the event returned last [byte]
+  std::uint64_t floor_ = 0;   // up to here no event is searched for again [byte]
   std::int64_t num_events_ = 0;
 };
 

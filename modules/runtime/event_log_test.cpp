@@ -77,6 +77,42 @@ TEST_F(EventLog, ReportsWhereItIsCutOffWhereverThatIs) {
   }
 }
 
+TEST_F(EventLog, GoesOnBehindADamagedHeader) {
+  constexpr int kNumEvents = 4;
+  constexpr int kHeader = 28, kEvent = kHeader + 7 + 3;
+  for (int byte = 0; byte < kHeader * 8; ++byte) {
+    std::filesystem::remove(path_);
+    {
+      EventLogWriter writer(path_);
+      for (int i = 0; i < kNumEvents; ++i) writer.Write({i, "OBJECTS", {1, 2, 3}});
+    }
+    // One bit of the header of the second event.
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekg(kEvent + byte / 8);
+    const int value = file.get();
+    file.seekp(kEvent + byte / 8);
+    file.put(static_cast<char>(value ^ (1 << byte % 8)));
+    file.close();
+
+    EventLogReader reader(path_);
+    std::vector<std::int64_t> utimes;
+    for (bool goes_on = true; goes_on;) {
+      try {
+        const auto event = reader.Next();
+        goes_on = event.has_value();
+        if (event && event->channel == "OBJECTS" && event->message.size() == 3) {
+          utimes.push_back(event->utime);
+        }
+      } catch (const std::runtime_error&) {
+        goes_on = reader.SkipDamage();
+      }
+    }
+    // The other three are always found, in order.
+    EXPECT_THAT(utimes, testing::IsSupersetOf({0, 2, 3})) << "bit " << byte;
+    EXPECT_LE(utimes.size(), 4u) << "bit " << byte;
+  }
+}
+
 TEST_F(EventLog, ReportsAFileThatIsNotALog) {
   std::ofstream(path_) << "a text that is longer than the header of an event";
   EXPECT_THAT(ReadFault(), HasSubstr("is not an LCM log"));

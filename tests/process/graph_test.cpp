@@ -153,6 +153,41 @@ TEST_F(GraphTest, DrawsTheFeaturesWhenAsked) {
   }
 }
 
+TEST_F(GraphTest, RunsTwoSegmentersSideBySide) {
+  graph_ = "side_by_side.textproto";
+  const std::string second = folder_.Path("second");
+  const Outcome outcome =
+      Run(RenderScene("one"), output_, {"--set", "second_exporter.output=" + second});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(Frames(output_), ElementsAre("one"));
+  EXPECT_THAT(Frames(second), ElementsAre("one"));
+}
+
+TEST_F(GraphTest, ChecksEveryGraphThatIsShipped) {
+  for (const auto& entry : fs::directory_iterator(CONFIG_FOLDER)) {
+    const std::string path = entry.path();
+    const bool is_graph = entry.path().extension() == ".textproto" &&
+                          ReadFile(path).find("module {") != std::string::npos;
+    if (!is_graph) continue;
+    const Outcome outcome = RunLauncher({"check", path}, folder_);
+    EXPECT_EQ(outcome.code, 0) << path << outcome.err;
+  }
+}
+
+TEST_F(GraphTest, GivesTheSameObjectsWhenReplayedFromAnyModule) {
+  RenderScene("a");
+  const std::string log = folder_.Path("run.lcm");
+  ASSERT_EQ(Run(scenes_, output_, {"--record", log}).code, 0);
+  const std::string lines = ReadFile(output_ + "/objects.jsonl");
+  for (const std::string module : {"plane_filter", "feature_estimator", "hough_segmenter",
+                                   "model_verifier", "object_exporter"}) {
+    const Outcome outcome =
+        Run("", folder_.Path("from_" + module), {"--replay", log, "--from", module});
+    EXPECT_EQ(outcome.code, 0) << module << outcome.err;
+    EXPECT_EQ(ReadFile(folder_.Path("from_" + module) + "/objects.jsonl"), lines) << module;
+  }
+}
+
 // Of each real recording, one object that stands free.
 class RecordingTest : public GraphTest, public testing::WithParamInterface<const char*> {};
 

@@ -1,0 +1,168 @@
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "launcher/log_tool/log_scan.h"
+#include "launcher/log_tool/player.h"
+#include "lcmtypes/channels.h"
+#include "modules/runtime/config_error.h"
+#include "modules/runtime/suggestion.h"
+
+namespace declutter::log_tool {
+namespace {
+
+using runtime::ConfigError;
+
+constexpr int kFailure = 1;
+constexpr int kBadCommand = 2;
+
+constexpr const char* kHelp = R"(log_tool: looks into logs of LCM
+
+  log_tool info LOG [--graph]
+      Channels with their types, rates, sizes and gaps, what made the log, and what is damaged;
+      or the graph, with all parameters, that it was recorded from.
+  log_tool cut LOG NEW_LOG [PART]
+      Copies a part of a log, without what is damaged.
+  log_tool play LOG [PART] [--speed X] [--loop] [--url URL]
+      Publishes it as it was recorded. In a terminal the space bar stops it and lets it go on; n
+      gives the next message while it is stopped.
+
+  PART:  --start S and --end S, in seconds from the beginning; --channels A,B
+
+  Ends with 1 when a log is damaged or cannot be read or written, with 2 for a bad command line.
+)";
+
+struct CommandLine {
+  std::vector<std::string> operands;  // the verb first
+  Excerpt excerpt;
+  double speed = 1.0;
+  bool loops = false;
+  bool shows_graph = false;
+  std::string url;
+};
+
+double Number(const std::string& text, double min) {
+  size_t end = 0;
+  double number = 0.0;
+  try {
+    number = std::stod(text, &end);
+  } catch (const std::logic_error&) {
+    end = 0;
+  }
+  if (end == 0 || end != text.size() || !(number >= min)) {
+    throw ConfigError("'" + text + "' is no number from " + std::to_string(min));
+  }
+  return number;
+}
+
+std::vector<std::string> Split(const std::string& list) {
+  std::istringstream words(list);
+  std::vector<std::string> split;
+  for (std::string word; std::getline(words, word, ',');) split.push_back(word);
+  return split;
+}
+
+// Options without a value have none in `arguments`.
+CommandLine Parse(const std::vector<std::string>& arguments) {
+  CommandLine line;
+  using Value = const std::string&;
+  const std::map<std::string, std::function<void(Value)>> valued = {
+      {"--start", [&](Value value) { line.excerpt.start_s = Number(value, 0.0); }},
+      {"--end", [&](Value value) { line.excerpt.end_s = Number(value, 0.0); }},
+      {"--channels", [&](Value value) { line.excerpt.channels = Split(value); }},
+      {"--speed", [&](Value value) { line.speed = Number(value, 0.001); }},
+      {"--url", [&](Value value) { line.url = value; }}};
+  const std::map<std::string, bool*> plain = {{"--loop", &line.loops},
+                                              {"--graph", &line.shows_graph}};
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
+    if (word.rfind("--", 0) != 0) {
+      line.operands.push_back(word);
+    } else if (const auto flag = plain.find(word); flag != plain.end()) {
+      *flag->second = true;
+    } else if (const auto option = valued.find(word); option != valued.end()) {
+      if (++i == arguments.size()) throw ConfigError(word + ": needs a value");
+      option->second(arguments[i]);
+    } else {
+      throw ConfigError(word + ": unknown option" +
+                        runtime::Suggestion(word, {"--start", "--end", "--channels", "--speed",
+                                                   "--url", "--loop", "--graph"}));
+    }
+  }
+  return line;
+}
+
+int Info(const std::string& log, bool shows_graph) {
+  const LogSummary summary = Summarise(log);
+  if (shows_graph && summary.graph.empty()) {
+    throw std::runtime_error(log + ": does not say what made it");
+  }
+  std::cout << (shows_graph ? summary.graph : Text(summary)) << std::flush;
+  return summary.damages.empty() ? 0 : kFailure;
+}
+
+int Cut(const std::string& log, const std::string& new_log, const Excerpt& excerpt) {
+  runtime::EventLogWriter writer(new_log);
+  std::optional<int64_t> first_us;
+  int64_t num_copied = 0;
+  const auto damages = ForEachEvent(log, [&](const runtime::LogEvent& event) {
+    if (!first_us) first_us = event.utime;
+    // What made it belongs to every part of a log.
+    const bool is_info = event.channel == kRunInfo.name;
+    if (!is_info && !excerpt.Holds(event.channel, event.utime, *first_us)) return;
+    writer.Write(event);
+    num_copied += is_info ? 0 : 1;
+  });
+  for (const std::string& damage : damages) std::cerr << "log_tool: " << damage << "\n";
+  if (num_copied == 0) throw std::runtime_error(log + ": no message in that part");
+  return damages.empty() ? 0 : kFailure;
+}
+
+int Act(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) throw ConfigError("info, cut or play what? --help tells more");
+  for (const std::string& argument : arguments) {
+    if (argument != "--help" && argument != "-h") continue;
+    std::cout << kHelp;
+    return 0;
+  }
+  const CommandLine line = Parse(arguments);
+  const std::string verb = line.operands.empty() ? "" : line.operands[0];
+  const std::map<std::string, size_t> num_operands = {{"info", 2}, {"cut", 3}, {"play", 2}};
+  const auto known = num_operands.find(verb);
+  if (known == num_operands.end()) {
+    throw ConfigError("unknown verb '" + verb + "'" +
+                      runtime::Suggestion(verb, {"info", "cut", "play"}));
+  }
+  if (line.operands.size() != known->second) {
+    throw ConfigError(verb + ": a log is needed" +
+                      (verb == "cut" ? ", and the name of a new one" : ""));
+  }
+  if (verb == "info") return Info(line.operands[1], line.shows_graph);
+  if (verb == "cut") return Cut(line.operands[1], line.operands[2], line.excerpt);
+  const char* environment_url = std::getenv("LCM_DEFAULT_URL");
+  std::string url =
+      environment_url != nullptr ? environment_url : "udpm://239.255.76.67:7667?ttl=0";
+  if (!line.url.empty()) url = line.url;
+  return Play(line.operands[1], line.excerpt, line.speed, line.loops, url);
+}
+
+}  // namespace
+}  // namespace declutter::log_tool
+
+int main(int argc, char** argv) {
+  using namespace declutter;
+  try {
+    return log_tool::Act({argv + 1, argv + argc});
+  } catch (const runtime::ConfigError& error) {
+    std::cerr << "log_tool: " << error.what() << "\n";
+    return log_tool::kBadCommand;
+  } catch (const std::exception& error) {
+    std::cerr << "log_tool: " << error.what() << "\n";
+    return log_tool::kFailure;
+  }
+}
