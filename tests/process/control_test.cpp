@@ -91,7 +91,7 @@ TEST_F(ControlTest, StopsAndStartsAModuleWhileTheRestRuns) {
   Run("", "");
   ASSERT_EQ(Ask({"stop", "filter"}).code, 0);
   EXPECT_THAT(Row("filter"), ContainsRegex("filter +stopped +0 "));
-  EXPECT_THAT(ProcessesWith(Fake("fake_filter")), IsEmpty());
+  EXPECT_THAT(ModulesOf("fake_filter"), IsEmpty());
   ASSERT_EQ(Ask({"start", "filter"}).code, 0);
   EXPECT_THAT(Row("filter"), ContainsRegex("filter +running +[1-9][0-9]* +1 "));
   End();
@@ -99,9 +99,9 @@ TEST_F(ControlTest, StopsAndStartsAModuleWhileTheRestRuns) {
 
 TEST_F(ControlTest, RestartsAModuleAsAnotherProcess) {
   Run("", "");
-  const auto before = ProcessesWith(Fake("fake_filter"));
+  const auto before = ModulesOf("fake_filter");
   ASSERT_EQ(Ask({"restart", "filter"}).code, 0);
-  const auto after = ProcessesWith(Fake("fake_filter"));
+  const auto after = ModulesOf("fake_filter");
   ASSERT_EQ(after.size(), 1u);
   EXPECT_NE(before, after);
   End();
@@ -134,13 +134,13 @@ TEST_F(ControlTest, SaysWhenNoGraphRuns) {
 TEST_F(ControlTest, SwapsAModuleWithoutLosingOrDoublingAFrame) {
   Run("", "");
   ASSERT_TRUE(HasObjects(20));
-  const auto before = ProcessesWith(Fake("fake_filter"));
+  const auto before = ModulesOf("fake_filter");
   for (int i = 0; i < 2; ++i) {
     const Outcome outcome = Ask({"swap", "filter", Fake("fake_filter"), "--set",
                                  "filter.at_frame=" + std::to_string(50 + i)});
     ASSERT_EQ(outcome.code, 0) << outcome.err << ReadFile(folder_.Path("stderr"));
   }
-  EXPECT_NE(ProcessesWith(Fake("fake_filter")), before);
+  EXPECT_NE(ModulesOf("fake_filter"), before);
   EXPECT_THAT(ReadFile(folder_.Path("logs/latest/graph.textproto")), HasSubstr("at_frame: 51"));
   ASSERT_TRUE(HasObjects(UtimesOf("OBJECTS", log_).size() + 20));
   End();
@@ -150,12 +150,12 @@ TEST_F(ControlTest, SwapsAModuleWithoutLosingOrDoublingAFrame) {
 TEST_F(ControlTest, KeepsTheOldModuleWhenTheNewOneNeverGetsReady) {
   Run("", "start_limit_s: 1");
   ASSERT_TRUE(HasObjects(20));
-  const auto before = ProcessesWith(Fake("fake_filter"));
+  const auto before = ModulesOf("fake_filter");
   const Outcome outcome =
       Ask({"swap", "filter", Fake("fake_filter"), "--set", "filter.mishap=hangs_at_start"});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("filter was not swapped"));
-  EXPECT_EQ(ProcessesWith(Fake("fake_filter")), before);
+  EXPECT_EQ(ModulesOf("fake_filter"), before);
   ASSERT_TRUE(HasObjects(UtimesOf("OBJECTS", log_).size() + 20));
   EXPECT_THAT(End().err, HasSubstr("the successor of filter is not ready 1 s after its start"));
   EXPECT_EQ(NumLostOrDoubled(), 0);

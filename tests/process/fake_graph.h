@@ -10,6 +10,13 @@ inline std::string Fake(const std::string& program) {
   return std::string(FAKE_FOLDER) + "/" + program;
 }
 
+// Process numbers of a fake program that runs as a module; one that only describes itself does not
+// count.
+inline std::vector<pid_t> ModulesOf(const std::string& program) {
+  const std::string next_word(1, '\0');
+  return ProcessesWith(Fake(program) + next_word + "--name");
+}
+
 // A module's block of a graph, with these further fields.
 inline std::string Block(const std::string& name, const std::string& program,
                          const std::string& fields) {

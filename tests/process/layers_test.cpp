@@ -101,8 +101,8 @@ TEST_F(LayersTest, StartsAProcessAsItsBlockSays) {
                 "env: \"COLOUR=blue\" nice: 5 memory_limit_mb: 700 stop_signal: \"SIGINT\" cpu: " +
                     std::to_string(cpu));
   Launched launcher({LAUNCHER, "run", graph, "--log_dir", folder_.Path("logs")}, folder_);
-  ASSERT_TRUE(Eventually([] { return !ProcessesWith(Fake("fake_source")).empty(); }));
-  const auto found = ProcessesWith(Fake("fake_filter"));
+  ASSERT_TRUE(Eventually([] { return !ModulesOf("fake_filter").empty(); }));
+  const auto found = ModulesOf("fake_filter");
   ASSERT_EQ(found.size(), 1u);
   const std::string proc = "/proc/" + std::to_string(found[0]);
   EXPECT_THAT(ReadFile(proc + "/environ"), HasSubstr(std::string("COLOUR=blue\0", 12)));

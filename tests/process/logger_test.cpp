@@ -123,7 +123,7 @@ TEST_F(LoggerTest, EndsTheLogWholeWhenTheDiskFillsAndTheGraphGoesOn) {
   })) << ReadFile(folder_.Path("stderr"));
   const auto recorded = UtimesOf("OBJECTS", file);
   EXPECT_GE(recorded.size(), 10u);
-  EXPECT_EQ(ProcessesWith(Fake("fake_filter")).size(), 1u);
+  EXPECT_EQ(ModulesOf("fake_filter").size(), 1u);
   launcher.Signal(SIGTERM);
   const Outcome outcome = launcher.Wait();
   EXPECT_EQ(outcome.code, 0) << outcome.err;

@@ -22,8 +22,7 @@ class RestartTest : public testing::Test {
 
   // The process of a module; 0 while there is none.
   pid_t Find(const std::string& program) const {
-    const std::string name(1, '\0');  // next word of the command line
-    const auto found = ProcessesWith(Fake(program) + name + "--name");
+    const auto found = ModulesOf(program);
     return found.size() == 1 ? found[0] : 0;
   }
 
