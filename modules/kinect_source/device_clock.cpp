@@ -14,6 +14,12 @@ constexpr double kDriftGain = 0.001;
 
 }  // namespace
 
+void DeviceClock::Restart() {
+  const int64_t last_utime = last_utime_;
+  *this = {};
+  last_utime_ = last_utime;
+}
+
 bool DeviceClock::HasJumped(int64_t device_us, int64_t arrival_us) const {
   if (device_us <= last_device_us_) return true;
   return std::abs(arrival_us - (device_us + *offset_us_)) > kMaxDeviation_us;

@@ -13,8 +13,9 @@ class DeviceClock {
   // utime of a frame taken at device_us, arrived at arrival_us; both [us].
   int64_t ToUtime(int64_t device_us, int64_t arrival_us);
 
-  // Forgets the sensor's clock, not the last utime: another device, or the same opened again.
-  void Restart() { offset_us_.reset(); }
+  // Forgets the sensor's clock and figures, not the last utime: another device, or the same opened
+  // again.
+  void Restart();
 
   int64_t num_jumps() const { return num_jumps_; }
   // Root mean square of how much longer or shorter than taken two frames arrived apart [us].

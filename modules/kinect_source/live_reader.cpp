@@ -39,6 +39,7 @@ void LiveReader::Open() {
   empty_since_us_.reset();
   last_index_ = 0;
   num_read_ = 0;
+  num_skipped_ = 0;
   events_.note("sensor: " + sensor_->description());
 }
 

@@ -59,10 +59,10 @@ class LiveReader {
   int64_t next_open_us_ = 0;
   std::optional<int64_t> silent_since_us_;
   std::optional<int64_t> empty_since_us_;
-  int64_t last_index_ = 0;  // of the sensor opened now
-  int64_t num_read_ = 0;    // from the sensor opened now
+  int64_t last_index_ = 0;  // of the sensor opened now, as the next two
+  int64_t num_read_ = 0;
   int64_t num_skipped_ = 0;
-  int64_t num_frames_ = 0;
+  int64_t num_frames_ = 0;  // in all
 };
 
 }  // namespace declutter

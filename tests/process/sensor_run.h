@@ -2,16 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "modules/codec/codec.h"
+#include "modules/runtime/config.h"
 #include "modules/runtime/event_log.h"
+#include "modules/synthetic_sensor/rendered_images.h"
 #include "tests/process/fake_graph.h"
 #include "tests/process/launched.h"
 
 namespace declutter {
+
+// How long a test lasts: long in tests/soak.sh.
+inline int ShortOrSoak(int brief, int soak) {
+  return std::getenv("DECLUTTER_SOAK") == nullptr ? brief : soak;
+}
 
 // What kinect_source published in a run.
 struct SensorLog {
@@ -83,6 +91,13 @@ class SensorRun : public testing::Test {
       }
     }
     return log;
+  }
+
+  // The images that a sensor shows.
+  static RenderedImages Rendered(const std::string& sensor_path) {
+    SyntheticSensor sensor;
+    runtime::ParseConfig(ReadFile(sensor_path), sensor_path, &sensor);
+    return RenderImages(sensor, sensor_path);
   }
 
   static std::string Live(const std::string& sensor) { return "live:synthetic:" + sensor; }

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "modules/kinect_source/openni/frame_copy.h"
-#include "modules/kinect_source/openni/openni_text.h"
+#include "modules/kinect_source/openni/openni_error.h"
+#include "modules/kinect_source/openni/video_modes.h"
 
 namespace declutter {
 namespace {
@@ -15,52 +16,15 @@ using openni::STATUS_OK;
 using openni::VideoMode;
 using openni::VideoStream;
 
-constexpr int kUsualWidth = 640, kUsualHeight = 480, kUsualRate_hz = 30;
 // Longer than a period of any mode: by then the colour of a depth image has come.
 constexpr int kColorWait_ms = 50;
 constexpr int kFramesPerDiskCheck = 30;
-
-std::string ModeText(const SensorRequest& request) {
-  std::string text;
-  if (request.width > 0) {
-    text += std::to_string(request.width) + "x" + std::to_string(request.height) + " px";
-  }
-  if (request.rate_hz > 0) {
-    text += (text.empty() ? "" : " at ") + std::to_string(request.rate_hz) + " Hz";
-  }
-  return text.empty() ? "its default mode" : text;
-}
 
 // The player of a file crashes when the file is closed before the player has begun to play.
 void LetPlayerBegin() {
   constexpr int kLongEnough_ms = 500;
   int ignored = 0;
   openni::OpenNI::waitForAnyStream(nullptr, 0, &ignored, kLongEnough_ms);
-}
-
-bool Fits(const VideoMode& mode, int width, int height, int rate_hz) {
-  return IsReadable(mode) && (width == 0 || mode.getResolutionX() == width) &&
-         (height == 0 || mode.getResolutionY() == height) &&
-         (rate_hz == 0 || mode.getFps() == rate_hz);
-}
-
-std::optional<VideoMode> FindMode(const VideoStream& stream, int width, int height, int rate_hz) {
-  const VideoMode current = stream.getVideoMode();
-  if (Fits(current, width, height, rate_hz)) return current;
-  const openni::Array<VideoMode>& modes = stream.getSensorInfo().getSupportedVideoModes();
-  for (int i = 0; i < modes.getSize(); ++i) {
-    if (Fits(modes[i], width, height, rate_hz)) return modes[i];
-  }
-  return std::nullopt;
-}
-
-// What is asked; of what is left open, the usual, then anything.
-std::optional<VideoMode> ChooseMode(const VideoStream& stream, const SensorRequest& request) {
-  const int width = request.width > 0 ? request.width : kUsualWidth;
-  const int height = request.height > 0 ? request.height : kUsualHeight;
-  const int rate_hz = request.rate_hz > 0 ? request.rate_hz : kUsualRate_hz;
-  if (const auto mode = FindMode(stream, width, height, rate_hz)) return mode;
-  return FindMode(stream, request.width, request.height, request.rate_hz);
 }
 
 }  // namespace
@@ -133,20 +97,22 @@ void OpenniSensor::OpenColor(const SensorRequest& request) {
     return;
   }
   if (openni::CameraSettings* settings = color_.getCameraSettings()) {
-    settings->setAutoExposureEnabled(request.auto_exposure);
-    settings->setAutoWhiteBalanceEnabled(request.auto_white_balance);
+    const bool obeys =
+        settings->setAutoExposureEnabled(request.auto_exposure) == STATUS_OK &&
+        settings->setAutoWhiteBalanceEnabled(request.auto_white_balance) == STATUS_OK;
+    if (!obeys) lacks_ = "has no choice of auto_exposure and auto_white_balance";
   }
 }
 
 void OpenniSensor::SetMode(const SensorRequest& request, VideoStream* stream, const char* what) {
   const std::optional<VideoMode> mode = ChooseMode(*stream, request);
   if (!mode) {
-    throw UnsupportedRequest(uri_ + ": no " + what + " with " + ModeText(request) +
-                             "; supported: " + ModesText(stream->getSensorInfo()));
+    throw UnsupportedRequest(uri_ + ": no " + what + " with " + AskedText(request) +
+                             "; supported: " + SupportedText(*stream));
   }
   if (device_.isFile()) return;  // has one mode, and no setting
   if (stream->setVideoMode(*mode) != STATUS_OK) {
-    throw NoSensor(uri_ + ": refuses " + what + " with " + ModeText(request) + ": " +
+    throw NoSensor(uri_ + ": refuses " + what + " with " + AskedText(request) + ": " +
                    OpenniError());
   }
   if (stream->isCroppingSupported()) stream->resetCropping();

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "modules/kinect_source/openni/openni_error.h"
 #include "modules/kinect_source/openni/openni_sensor.h"
-#include "modules/kinect_source/openni/openni_text.h"
 
 namespace declutter {
 namespace {

@@ -127,11 +127,13 @@ OniStatus Stream::SetMode(const OniVideoMode& mode) {
 }
 
 OniStatus Stream::SetCropping(const OniCropping& cropping) {
-  const bool fits = cropping.originX >= 0 && cropping.originY >= 0 && cropping.width > 0 &&
-                    cropping.height > 0 && cropping.originX + cropping.width <= mode_.resolutionX &&
+  // OpenNI2 leaves the rest unset when cropping is switched off.
+  const bool fits = cropping.enabled && cropping.originX >= 0 && cropping.originY >= 0 &&
+                    cropping.width > 0 && cropping.height > 0 &&
+                    cropping.originX + cropping.width <= mode_.resolutionX &&
                     cropping.originY + cropping.height <= mode_.resolutionY;
   if (cropping.enabled && !fits) return ONI_STATUS_BAD_PARAMETER;
-  cropping_ = cropping;
+  cropping_ = cropping.enabled ? cropping : OniCropping{};
   notifyAllProperties();
   return ONI_STATUS_OK;
 }
