@@ -10,22 +10,16 @@ namespace {
 
 constexpr int kBadConfig = 2;  // exit code: what cannot work once cannot work again
 
-std::string Seconds(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%g s", seconds);
-  return text;
-}
-
-bool Lives(State state) {
-  return state == State::kStarting || state == State::kRunning || state == State::kTerminating ||
-         state == State::kKilled;
-}
-
 bool EndsByItself(const Node& node, const Exited& event) {
   return node.is_source && !event.by_signal && event.code <= 1;
 }
 
 }  // namespace
+
+bool Lives(State state) {
+  return state == State::kStarting || state == State::kRunning || state == State::kTerminating ||
+         state == State::kKilled;
+}
 
 Supervisor::Supervisor(std::vector<Node> nodes, bool is_finite) : is_finite_(is_finite) {
   for (Node& node : nodes) {
@@ -57,9 +51,10 @@ std::vector<Action> Supervisor::Handle(const Event& event, double now_s) {
   return std::exchange(actions_, {});
 }
 
-template <typename Visit>
-void Supervisor::ForEachInOrder(const Visit& visit) {
-  for (const std::string& name : order_) visit(processes_.at(name));
+std::string Supervisor::Seconds(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%g s", seconds);
+  return text;
 }
 
 void Supervisor::Enter(State state, Process* process, double now_s) {
@@ -214,93 +209,6 @@ void Supervisor::TerminateNow(Process* process, Then then, double now_s) {
 void Supervisor::KillNow(Process* process, double now_s) {
   Enter(State::kKilled, process, now_s);
   actions_.push_back(Kill{process->node.name});
-}
-
-void Supervisor::StartWhatCan(double now_s) {
-  ForEachInOrder([&](Process& process) {
-    if (process.state == State::kWaiting && IsServed(process)) StartNow(&process, now_s);
-  });
-}
-
-void Supervisor::RestartWhatIsDue(double now_s) {
-  ForEachInOrder([&](Process& process) {
-    if (process.state == State::kPausing && now_s >= process.due_s) StartNow(&process, now_s);
-  });
-}
-
-void Supervisor::CheckStartLimits(double now_s) {
-  ForEachInOrder([&](Process& process) {
-    const double limit_s = process.node.start_limit_s;
-    if (is_stopping_ || process.state != State::kStarting) return;
-    if (now_s - process.since_s <= limit_s) return;
-    GiveUp(&process, " is not ready " + Seconds(limit_s) + " after its start", now_s);
-  });
-}
-
-void Supervisor::CheckHangs(double now_s) {
-  ForEachInOrder([&](Process& process) {
-    if (is_stopping_ || process.state != State::kRunning) return;
-    if (process.watch.is_silent(now_s)) {
-      GiveUp(&process, " hangs: no sign of life for " + Seconds(process.watch.silence_limit_s()),
-             now_s);
-    } else if (process.watch.is_stuck(now_s)) {
-      GiveUp(
-          &process,
-          " hangs: input waits and no frame was finished for " + Seconds(process.watch.limit_s()),
-          now_s);
-    }
-  });
-}
-
-void Supervisor::CheckSwaps(double now_s) {
-  ForEachInOrder([&](Process& process) {
-    const double limit_s = process.node.start_limit_s;
-    if (process.succession.is_late(limit_s, now_s)) {
-      Tell("the successor of " + process.node.name + " is not ready " + Seconds(limit_s) +
-           " after its start; " + process.node.name + " goes on");
-      CancelSwap(&process);
-    }
-    if (process.state != State::kRunning || !process.succession.is_due(now_s)) return;
-    process.succession.TakeOver(now_s);
-    TerminateNow(&process, Then::kPromote, now_s);
-  });
-}
-
-void Supervisor::GiveUp(Process* process, const std::string& why, double now_s) {
-  const Node& node = process->node;
-  if (node.is_required && node.restart.when == RestartRule::When::kNever) {
-    return Fail(1, node.name + why);
-  }
-  Tell(node.name + why);
-  process->then = Then::kRule;
-  KillNow(process, now_s);
-}
-
-void Supervisor::StopWhatCan(double now_s) {
-  // What does not run counts as ended; a node may then become free to stop in the same pass.
-  for (auto& [name, process] : processes_) {
-    CancelSwap(&process);
-    if (!Lives(process.state)) process.state = State::kEnded;
-  }
-  ForEachInOrder([&](Process& process) {
-    const bool is_up = process.state == State::kStarting || process.state == State::kRunning;
-    if (is_up && AllEnded(process.upstream)) TerminateNow(&process, Then::kStay, now_s);
-  });
-}
-
-void Supervisor::KillWhatLingers(double now_s) {
-  ForEachInOrder([&](Process& process) {
-    const double limit_s = process.node.grace_period_s;
-    if (process.state != State::kTerminating || now_s - process.since_s <= limit_s) return;
-    const std::string text = process.node.name + " still runs " + Seconds(limit_s) +
-                             " after it was asked to stop: killed";
-    if (is_stopping_ && process.node.is_required) {
-      Fail(1, text);
-    } else {
-      Tell(text);
-    }
-    KillNow(&process, now_s);
-  });
 }
 
 void Supervisor::Fail(int code, const std::string& text) {

@@ -95,6 +95,9 @@ enum class State {
   kEnded
 };
 
+// True while there is a process.
+bool Lives(State state);
+
 // Decides when each process of a graph starts and stops. Holds no process, clock or socket: what it
 // asks for is a function of the events and their times alone.
 //
@@ -185,8 +188,12 @@ class Supervisor {
   bool IsServed(const Process& process) const;
   bool AllEnded(const std::vector<std::string>& names) const;
   bool AllSourcesEnded() const;
+  static std::string Seconds(double seconds);
+
   template <typename Visit>
-  void ForEachInOrder(const Visit& visit);
+  void ForEachInOrder(const Visit& visit) {
+    for (const std::string& name : order_) visit(processes_.at(name));
+  }
 
   std::vector<std::string> order_;  // as given: actions come in this order
   std::map<std::string, Process> processes_;
