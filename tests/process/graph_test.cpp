@@ -163,6 +163,23 @@ TEST_F(GraphTest, RunsTwoSegmentersSideBySide) {
   EXPECT_THAT(Frames(second), ElementsAre("one"));
 }
 
+TEST_F(GraphTest, GivesObjectsToPythonWithoutAnyPackage) {
+  if (!fs::exists("/usr/bin/python3")) GTEST_SKIP() << "no python3";
+  const std::string log = folder_.Path("run.lcm");
+  ASSERT_EQ(Run(RenderScene("one"), output_, {"--record", log}).code, 0);
+  std::vector<std::string> generate = {"/usr/bin/lcm-gen", "-p", "--ppath", folder_.Path("python")};
+  const std::string types = std::string(CONFIG_FOLDER) + "/../lcmtypes";
+  for (const auto& entry : fs::directory_iterator(types)) {
+    if (entry.path().extension() == ".lcm") generate.push_back(entry.path());
+  }
+  ASSERT_EQ(Launched(generate, folder_).Wait().code, 0);
+  const auto set_path = [&] { setenv("PYTHONPATH", folder_.Path("python").c_str(), 1); };
+  const Outcome outcome =
+      Launched({"/usr/bin/python3", types + "/read_objects.py", log}, folder_, set_path).Wait();
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::EndsWith(" 2 objects\n"));
+}
+
 TEST_F(GraphTest, ChecksEveryGraphThatIsShipped) {
   for (const auto& entry : fs::directory_iterator(CONFIG_FOLDER)) {
     const std::string path = entry.path();
