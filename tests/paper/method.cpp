@@ -8,6 +8,7 @@
 #include "modules/plane_filter/plane_filter.h"
 #include "modules/ransac_segmenter/single_shot.h"
 #include "modules/scene_renderer/scene_folder.h"
+#include "tests/accuracy/solid_comparison.h"
 
 namespace declutter::experiments {
 namespace {
@@ -17,6 +18,18 @@ constexpr int64_t kUtime = 33333;  // [us] part of the seed: the same for every 
 template <typename Value>
 Value ThroughItsMessage(const Value& value) {
   return codec::Decode(codec::Encode(value));
+}
+
+bool IsRight(const Solid& solid, const accuracy::SceneTruth& truth) {
+  constexpr double kTolerance = 0.020;  // [m]
+  for (const accuracy::TrueObject& object : truth.objects) {
+    if (object.shape != solid.shape || !object.solid) continue;
+    // Comparing volumes takes long: only where it can matter.
+    const Eigen::Vector3d offset = object.solid->X_CO.translation() - solid.X_CO.translation();
+    if (offset.norm() > kTolerance) continue;
+    if (accuracy::IsWithin(accuracy::CompareSolids(solid, *object.solid), kTolerance)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -41,6 +54,9 @@ Result RunMethod(const Method& method, const PreparedFrame& frame) {
       HoughSegmenter(method.segmenter, method.detect).Segment(frame.tabletop, frame.features));
   Result result;
   result.num_hypotheses = hypotheses.hypotheses.size();
+  for (const Hypothesis& hypothesis : hypotheses.hypotheses) {
+    result.num_right_hypotheses += IsRight(hypothesis.solid, frame.truth);
+  }
   result.found = ThroughItsMessage(ModelVerifier(method.verifier).Verify(frame.depth, hypotheses));
   result.score = accuracy::MatchObjects(frame.truth, result.found);
   return result;

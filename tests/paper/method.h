@@ -34,6 +34,7 @@ struct Method {
 
 struct Result {
   size_t num_hypotheses = 0;
+  size_t num_right_hypotheses = 0;  // centre and extents within 20 mm of a true object
   ObjectList found;
   accuracy::FrameScore score;
 };

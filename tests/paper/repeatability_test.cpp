@@ -28,6 +28,8 @@ TEST(Repeatability, SeedsChangeTheVotesButNoMeasureByMoreThanAHundredthOfAMillim
     method.segmenter.set_num_samples(2);  // so few that some iterations miss an object
     const Result result = RunMethod(method, frame);
     measured.Add(frame, result);
+    EXPECT_GE(result.num_right_hypotheses, 4u);
+    EXPECT_LT(result.num_right_hypotheses, result.num_hypotheses);
     std::vector<int> votes_of_seed;
     for (const ObjectModel& object : result.found.objects) {
       votes_of_seed.push_back(object.num_votes);

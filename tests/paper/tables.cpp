@@ -20,9 +20,11 @@ struct Totals {
   int num_false = 0;
   double num_votes = 0;  // of right models
   double num_hypotheses = 0;
+  double num_right_hypotheses = 0;
 
   void Add(const PreparedFrame& frame, const Result& result) {
     num_hypotheses += static_cast<double>(result.num_hypotheses);
+    num_right_hypotheses += static_cast<double>(result.num_right_hypotheses);
     for (size_t i = 0; i < frame.truth.objects.size(); ++i) {
       const accuracy::TrueObject& object = frame.truth.objects[i];
       if (object.scope != accuracy::Scope::kCore) continue;
@@ -41,6 +43,10 @@ struct Totals {
   int num_all_found() const { return num_found[0] + num_found[1]; }
   double votes_per_model() const { return num_all_found() > 0 ? num_votes / num_all_found() : 0; }
 
+  double right_share() const {
+    return num_hypotheses > 0 ? num_right_hypotheses / num_hypotheses : 0;
+  }
+
   Json Row(const std::string& name) const {
     return {{"name", name},
             {"boxes", num_core[0]},
@@ -49,7 +55,8 @@ struct Totals {
             {"cylinders_found", num_found[1]},
             {"false_models", num_false},
             {"votes_per_right_model", votes_per_model()},
-            {"hypotheses", num_hypotheses}};
+            {"hypotheses", num_hypotheses},
+            {"right_hypotheses", num_right_hypotheses}};
   }
 };
 
@@ -139,16 +146,16 @@ Json PrintFigure4(const std::vector<RenderedScene>& scenes) {
     const char* mode_name = mode == FeatureMode::kPaper ? "paper" : "default";
     std::printf(
         "\nFigure 4: what is found in %zu scenes when a filter lets pass, features of mode %s\n"
-        "%-28s hypotheses  boxes        cylinders    false\n",
+        "%-28s hypotheses  right   boxes        cylinders    false\n",
         scenes.size(), mode_name, "");
     const std::vector<PreparedFrame> frames = PrepareAll(scenes, mode);
     for (const auto& [name, change] : FilterChanges()) {
       Method method = Voting();
       change(&method.segmenter);
       const Totals totals = RunAll(method, frames);
-      std::printf("%-28s %10.0f  %4d of %3d  %4d of %3d  %5d\n", name.c_str(),
-                  totals.num_hypotheses, totals.num_found[0], totals.num_core[0],
-                  totals.num_found[1], totals.num_core[1], totals.num_false);
+      std::printf("%-28s %10.0f  %4.1f %%  %4d of %3d  %4d of %3d  %5d\n", name.c_str(),
+                  totals.num_hypotheses, 100 * totals.right_share(), totals.num_found[0],
+                  totals.num_core[0], totals.num_found[1], totals.num_core[1], totals.num_false);
       std::fflush(stdout);
       report[mode_name].push_back(totals.Row(name));
     }
