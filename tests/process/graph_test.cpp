@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "modules/imaging/png_file.h"
@@ -161,6 +162,25 @@ TEST_F(GraphTest, RunsTwoSegmentersSideBySide) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(Frames(output_), ElementsAre("one"));
   EXPECT_THAT(Frames(second), ElementsAre("one"));
+}
+
+TEST_F(GraphTest, GivesTheBytesOfTheRunWhenAModuleIsReplayedAlone) {
+  RenderScene("a");
+  RenderScene("b");
+  const std::string log = folder_.Path("run.lcm");
+  ASSERT_EQ(Run(scenes_, output_, {"--record", log}).code, 0);
+  const std::map<std::string, std::string> channels = {{"plane_filter", "TABLETOP"},
+                                                       {"feature_estimator", "FEATURES"},
+                                                       {"hough_segmenter", "HYPOTHESES"},
+                                                       {"model_verifier", "OBJECTS"}};
+  for (const auto& [module, channel] : channels) {
+    const std::string replayed = folder_.Path(module + ".lcm");
+    const Outcome outcome =
+        Launched({Program(module), "--replay", log, "--record", replayed}, folder_).Wait();
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(MessagesOf(channel, replayed).size(), 2u) << module;
+    EXPECT_EQ(MessagesOf(channel, replayed), MessagesOf(channel, log)) << module;
+  }
 }
 
 TEST_F(GraphTest, GivesObjectsToPythonWithoutAnyPackage) {

@@ -96,20 +96,32 @@ bool Eventually(const std::function<bool()>& condition, double limit_s) {
   return true;
 }
 
-std::vector<int64_t> UtimesOf(const std::string& channel, const std::string& log) {
-  constexpr int kFingerprint = 8, kUtime = 8;  // [byte], big-endian
-  std::vector<int64_t> utimes;
+std::vector<std::string> MessagesOf(const std::string& channel, const std::string& log) {
+  std::vector<std::string> messages;
   lcm_eventlog_t* events = lcm_eventlog_create(log.c_str(), "r");
-  if (events == nullptr) return utimes;
+  if (events == nullptr) return messages;
   while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(events)) {
-    uint64_t utime = 0;
-    const bool is_asked = event->channel == channel && event->datalen >= kFingerprint + kUtime;
-    const auto* data = static_cast<const uint8_t*>(event->data) + kFingerprint;
-    for (int i = 0; is_asked && i < kUtime; ++i) utime = utime << 8 | data[i];
-    if (is_asked) utimes.push_back(static_cast<int64_t>(utime));
+    if (event->channel == channel) {
+      messages.emplace_back(static_cast<const char*>(event->data),
+                            static_cast<size_t>(event->datalen));
+    }
     lcm_eventlog_free_event(event);
   }
   lcm_eventlog_destroy(events);
+  return messages;
+}
+
+std::vector<int64_t> UtimesOf(const std::string& channel, const std::string& log) {
+  constexpr size_t kFingerprint = 8, kUtime = 8;  // [byte], big-endian
+  std::vector<int64_t> utimes;
+  for (const std::string& message : MessagesOf(channel, log)) {
+    if (message.size() < kFingerprint + kUtime) continue;
+    uint64_t utime = 0;
+    for (size_t i = 0; i < kUtime; ++i) {
+      utime = utime << 8 | static_cast<uint8_t>(message[kFingerprint + i]);
+    }
+    utimes.push_back(static_cast<int64_t>(utime));
+  }
   return utimes;
 }
 

@@ -59,6 +59,9 @@ std::vector<pid_t> ProcessesWith(const std::string& word);
 // True when condition becomes true within limit_s.
 bool Eventually(const std::function<bool()>& condition, double limit_s = 10.0);
 
+// The bytes of the messages on a channel, in the order of the LCM log.
+std::vector<std::string> MessagesOf(const std::string& channel, const std::string& log);
+
 // The times that the messages on a channel begin with, in the order of the LCM log.
 std::vector<int64_t> UtimesOf(const std::string& channel, const std::string& log);
 
