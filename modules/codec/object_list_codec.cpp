@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "modules/codec/solid_parts.h"
@@ -53,6 +54,31 @@ std::vector<uint8_t> ReadLabels(const object_list_t& message, size_t num_pixels)
   return labels;
 }
 
+constexpr int32_t kCovariances = 28;  // in the upper triangle of 7 x 7
+
+void AppendCovariance(const SolidCovariance& covariance, object_list_t* message) {
+  for (int row = 0; row < 7; ++row) {
+    for (int column = row; column < 7; ++column) {
+      message->covariance.push_back(static_cast<float>(covariance(row, column)));
+    }
+  }
+  message->num_covariances = static_cast<int32_t>(message->covariance.size());
+}
+
+SolidCovariance ReadCovariance(const object_list_t& message, size_t object) {
+  SolidCovariance covariance;
+  size_t i = kCovariances * object;
+  for (int row = 0; row < 7; ++row) {
+    for (int column = row; column < 7; ++column, ++i) {
+      const auto value = static_cast<double>(message.covariance[i]);
+      Check(std::isfinite(value) && (row != column || value >= 0), {"covariance", i}, value,
+            "must be finite, and a variance not negative");
+      covariance(row, column) = covariance(column, row) = value;
+    }
+  }
+  return covariance;
+}
+
 void CheckObjectLengths(const object_list_t& message) {
   const int32_t num = message.num_objects;
   Check(num <= kMaxObjects, "num_objects", num, "must be at most 255");
@@ -64,6 +90,9 @@ void CheckObjectLengths(const object_list_t& message) {
   CheckLength("num_explained", message.num_explained, "num_objects", num);
   CheckLength("num_occluded", message.num_occluded, "num_objects", num);
   CheckLength("num_violating", message.num_violating, "num_objects", num);
+  Check(message.num_covariances == kCovariances * num, "num_covariances", message.num_covariances,
+        "must be 28 for each object");
+  CheckLength("covariance", message.covariance, "num_covariances", message.num_covariances);
 }
 
 ObjectModel ReadObject(const object_list_t& message, size_t i) {
@@ -83,6 +112,7 @@ ObjectModel ReadObject(const object_list_t& message, size_t i) {
   object.num_explained = NotNegative({"num_explained", i}, message.num_explained[i]);
   object.num_occluded = NotNegative({"num_occluded", i}, message.num_occluded[i]);
   object.num_violating = NotNegative({"num_violating", i}, message.num_violating[i]);
+  object.covariance = ReadCovariance(message, i);
   return object;
 }
 
@@ -106,6 +136,7 @@ object_list_t Encode(const ObjectList& list) {
     message.num_explained.push_back(object.num_explained);
     message.num_occluded.push_back(object.num_occluded);
     message.num_violating.push_back(object.num_violating);
+    AppendCovariance(object.covariance, &message);
   }
   WriteLabels(list.labels, &message);
   return Fitting(std::move(message));

@@ -140,6 +140,7 @@ TEST(ObjectListCodec, RestoresObjects) {
     EXPECT_EQ(a.num_explained, b.num_explained);
     EXPECT_EQ(a.num_occluded, b.num_occluded);
     EXPECT_EQ(a.num_violating, b.num_violating);
+    EXPECT_TRUE(a.covariance.isApprox(b.covariance, 1e-6));
   }
 }
 
@@ -224,6 +225,10 @@ TEST(ObjectListCodec, RefusesNumbersOutOfRange) {
               StartsWith("num_occluded[0] = -1: "));
   EXPECT_THAT(ObjectRefusalAfter([](auto& m) { m.num_violating[0] = -1; }),
               StartsWith("num_violating[0] = -1: "));
+  EXPECT_THAT(ObjectRefusalAfter([](auto& m) { m.covariance[0] = -1; }),
+              StartsWith("covariance[0] = -1: "));
+  EXPECT_THAT(ObjectRefusalAfter([](auto& m) { m.num_covariances = 1; }),
+              StartsWith("num_covariances = 1: "));
   EXPECT_THAT(ObjectRefusalAfter([](auto& m) { m.size_x[0] = kNan; }),
               StartsWith("size_x[0] = nan"));
   EXPECT_THAT(ObjectRefusalAfter([](auto& m) { m.fx = -1; }), StartsWith("fx = -1: "));

@@ -93,6 +93,11 @@ inline ObjectList TestObjects() {
   list.objects = {
       {2, TestBox(), {E::kObserved, E::kFreeSpace, E::kAssumed}, 0.9f, 0, 120, 800, 90, 7},
       {1, TestCylinder(), {E::kAssumed, E::kAssumed, E::kObserved}, 0.4f, 2, 60, 300, 20, 1}};
+  for (int i = 0; i < 7; ++i) {
+    for (int j = 0; j < 7; ++j) {
+      list.objects[0].covariance(i, j) = i == j ? 1e-6 * (i + 1) : 1e-7 * (i + j);
+    }
+  }
   list.labels.assign(48, 0);
   for (size_t pixel = 10; pixel < 30; ++pixel) list.labels[pixel] = pixel < 20 ? 1 : 2;
   return list;

@@ -47,6 +47,10 @@ struct HypothesisList {
   std::vector<Hypothesis> hypotheses;
 };
 
+// Covariance of what places and measures a solid: position of the centre along x, y, z of O [m],
+// extents along x, y, z of O [m], rotation about z of O [rad].
+using SolidCovariance = Eigen::Matrix<double, 7, 7>;
+
 // A solid that agrees with the depth image.
 struct ObjectModel {
   int32_t id = 0;  // 1 .. number of objects: its value in the label image
@@ -58,6 +62,7 @@ struct ObjectModel {
   int32_t num_explained = 0;  // [px] measured on its surface
   int32_t num_occluded = 0;   // [px] hidden by something in front
   int32_t num_violating = 0;  // [px] measured behind its surface: free space inside the solid
+  SolidCovariance covariance = SolidCovariance::Zero();
 };
 
 // The verified objects of a frame.

@@ -3,10 +3,11 @@
 #include <algorithm>
 
 #include "modules/model_verifier/confidence.h"
-#include "modules/model_verifier/extent_evidence.h"
+#include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/support_settling.h"
+#include "modules/model_verifier/uncertainty.h"
 
 namespace declutter {
 namespace {
@@ -66,7 +67,7 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   if (list.planes.empty() || frame.image.empty()) return list;
 
   const Plane& support = list.planes[0];
-  const NormalImage normals(frame.image);
+  const NormalLookup normals(frame.image);
   const Observation observation{frame.image, normals, support};
   const Observation coarse{frame.image, normals, support, kSelectionStep};
   for (Candidate& candidate : SelectModels(config_, hypotheses.hypotheses, coarse)) {
@@ -93,7 +94,9 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
     ObjectModel& object = list.objects[i];
     object.confidence = static_cast<float>(Confidence(
         object, evidence[i], NumUnexplained(object.solid, frame.image, support, list.labels)));
-    object.evidence = ExtentEvidence(object.solid, object.evidence, frame.image);
+    const SolidEnds ends = EndsOf(object.solid, object.evidence, evidence[i], coarse);
+    object.evidence = ExtentEvidence(ends);
+    object.covariance = CovarianceOf(object.solid, ends, evidence[i], observation);
   }
   DropUncertain(config_.min_confidence(), &list);
   return list;

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "modules/model_verifier/extent_evidence.h"
+#include <Eigen/Eigenvalues>
+
+#include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/scene_renderer/scene_renderer.h"
 #include "modules/scene_renderer/scene_text.h"
@@ -42,7 +44,7 @@ ObjectList Verify(const RenderedScene& scene, const std::vector<Hypothesis>& hyp
 }
 
 Solid RefineOn(const RenderedScene& scene, const Solid& solid) {
-  const NormalImage normals(scene.depth);
+  const NormalLookup normals(scene.depth);
   return Refine(solid, {scene.depth, normals, scene.table});
 }
 
@@ -114,16 +116,59 @@ TEST(ModelVerifier, GivesAnEmptyListForAnEmptyFrame) {
   EXPECT_EQ(list.header.error, "no image");
 }
 
-TEST(ExtentEvidence, IsObservedWithFreeSpaceAroundAndAssumedBehindAnOccluder) {
+std::array<Evidence, 3> EvidenceOf(const RenderedScene& scene, const Solid& solid) {
+  const NormalLookup normals(scene.depth);
+  const Observation observation{scene.depth, normals, scene.table};
+  return ExtentEvidence(EndsOf(solid, {}, CastRays(solid, observation), observation));
+}
+
+TEST(ExtentEvidence, IsObservedWithFreeSpaceAroundAndNotBehindAnOccluder) {
   const RenderedScene scene = RenderText(
       "object { box { size_x_m: 0.2 size_y_m: 0.06 size_z_m: 0.12 } y_m: 0.75 }"
       "object { box { size_x_m: 0.1 size_y_m: 0.06 size_z_m: 0.3 } x_m: 0.12 y_m: 0.62 }");
   const Solid& behind = scene.objects[0].solid;
   const Solid& in_front = scene.objects[1].solid;
-  const std::array<Evidence, 3> given = {};
-  EXPECT_EQ(ExtentEvidence(in_front, given, scene.depth)[0], Evidence::kObserved);
-  EXPECT_EQ(ExtentEvidence(behind, given, scene.depth)[0], Evidence::kAssumed);
-  EXPECT_EQ(ExtentEvidence(behind, given, scene.depth)[2], Evidence::kObserved);
+  EXPECT_EQ(EvidenceOf(scene, in_front)[0], Evidence::kObserved);
+  EXPECT_EQ(EvidenceOf(scene, behind)[0], Evidence::kAssumed);
+  EXPECT_EQ(EvidenceOf(scene, behind)[2], Evidence::kObserved);
+}
+
+TEST(ExtentEvidence, IsBoundedByFreeSpaceWhereTheOccluderEnds) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.2 size_y_m: 0.06 size_z_m: 0.12 } y_m: 0.75 }"
+      "object { box { size_x_m: 0.03 size_y_m: 0.06 size_z_m: 0.2 } x_m: 0.088 y_m: 0.66 }");
+  EXPECT_EQ(EvidenceOf(scene, scene.objects[0].solid)[0], Evidence::kFreeSpace);
+}
+
+TEST(ModelVerifier, KnowsAHiddenExtentLessWellThanASeenOne) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.2 size_y_m: 0.06 size_z_m: 0.12 } y_m: 0.75 }"
+      "object { box { size_x_m: 0.1 size_y_m: 0.06 size_z_m: 0.3 } x_m: 0.12 y_m: 0.62 }");
+  const ObjectList list =
+      Verify(scene, {Proposal(scene.objects[0].solid), Proposal(scene.objects[1].solid)});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  for (const ObjectModel& object : list.objects) {
+    const Eigen::SelfAdjointEigenSolver<SolidCovariance> eigen(object.covariance);
+    EXPECT_GE(eigen.eigenvalues().minCoeff(), -1e-12);
+    EXPECT_LT(std::sqrt(object.covariance(5, 5)), 0.004);
+  }
+  const ObjectModel& lower = list.objects[0];  // in the order of their tops
+  const ObjectModel& higher = list.objects[1];
+  EXPECT_GT(std::sqrt(lower.covariance(3, 3)), 0.02);
+  EXPECT_LT(std::sqrt(higher.covariance(3, 3)), 0.006);
+}
+
+TEST(ModelVerifier, KnowsACylinderBetterTheMoreOfItsSideIsSeen) {
+  const std::string can = "object { cylinder { radius_m: 0.035 height_m: 0.12 } y_m: 0.7 }";
+  const RenderedScene alone = RenderText(can);
+  const RenderedScene hidden = RenderText(
+      can + "object { box { size_x_m: 0.15 size_y_m: 0.05 size_z_m: 0.1 } x_m: -0.07 y_m: 0.6 }");
+  const ObjectList seen = Verify(alone, {Proposal(alone.objects[0].solid)});
+  const ObjectList half_seen = Verify(hidden, {Proposal(hidden.objects[0].solid)});
+  ASSERT_THAT(seen.objects, SizeIs(1));
+  ASSERT_THAT(half_seen.objects, SizeIs(1));
+  EXPECT_LT(seen.objects[0].covariance(3, 3), half_seen.objects[0].covariance(3, 3));
+  EXPECT_EQ(seen.objects[0].covariance(3, 4), seen.objects[0].covariance(3, 3));
 }
 
 TEST(Refine, BringsAnInaccurateBoxToTheTruth) {
@@ -165,7 +210,7 @@ TEST(RefineIfNoWorse, KeepsASolidThatAFitWouldLeadAstray) {
   const RenderedScene scene = RenderText(
       "object { cylinder { radius_m: 0.03 height_m: 0.12 } x_m: 0.03 y_m: 0.7 }"
       "object { box { size_x_m: 0.2 size_y_m: 0.05 size_z_m: 0.14 } x_m: -0.06 y_m: 0.6 }");
-  const NormalImage normals(scene.depth);
+  const NormalLookup normals(scene.depth);
   const Observation observation{scene.depth, normals, scene.table};
   const Solid truth = scene.objects[0].solid;
   Solid solid = truth;

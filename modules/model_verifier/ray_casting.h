@@ -8,14 +8,14 @@
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/plane.h"
 #include "modules/geometry/solid.h"
-#include "modules/model_verifier/normal_image.h"
+#include "modules/model_verifier/normal_lookup.h"
 
 namespace declutter {
 
 // What the camera measured, at the pixels that are multiples of step in both directions.
 struct Observation {
   const DepthImage& image;
-  const NormalImage& normals;
+  const NormalLookup& normals;
   const Plane& support;
   int step = 1;
 

@@ -29,7 +29,7 @@ Plane FarPlane() { return {-Eigen::Vector3d::UnitZ(), 5.0}; }
 
 RayEvidence CastAt(const Solid& solid, const DepthImage& image, const Plane& support,
                    int step = 1) {
-  const NormalImage normals(image);
+  const NormalLookup normals(image);
   return CastRays(solid, {image, normals, support, step});
 }
 
@@ -118,12 +118,12 @@ TEST(CastRays, LeavesTheSupportPlaneToItself) {
   EXPECT_EQ(CastAt(solid, image, wall).explained.size(), 0u);
 }
 
-TEST(NormalImage, GivesTheNormalOfAPlaneAndNothingAtAJump) {
+TEST(NormalLookup, GivesTheNormalOfAPlaneAndNothingAtAJump) {
   DepthImage image = Wall(1000);
   for (int v = 0; v < 48; ++v) {
     for (int u = 40; u < 64; ++u) image.counts[static_cast<size_t>(v * 64 + u)] = 1500;
   }
-  const NormalImage normals(image);
+  const NormalLookup normals(image);
   EXPECT_NEAR(normals.At(20, 24).z(), -1, 1e-3);
   EXPECT_TRUE(normals.At(39, 24).isZero());
 }

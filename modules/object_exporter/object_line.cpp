@@ -41,6 +41,18 @@ ordered_json Planes(const ObjectList& list) {
   return planes;
 }
 
+// Rows. Variances of fractions of a millimetre need more decimals than lengths.
+ordered_json Matrix(const SolidCovariance& covariance) {
+  constexpr double kPerUnit = 1e10;
+  ordered_json rows = ordered_json::array();
+  for (const auto& row : covariance.rowwise()) {
+    ordered_json values = ordered_json::array();
+    for (const double value : row) values.push_back(std::round(value * kPerUnit) / kPerUnit);
+    rows.push_back(std::move(values));
+  }
+  return rows;
+}
+
 ordered_json Object(const ObjectModel& model, const std::vector<uint8_t>& labels) {
   const Solid& solid = model.solid;
   const bool is_box = solid.shape == Shape::kBox;
@@ -58,6 +70,7 @@ ordered_json Object(const ObjectModel& model, const std::vector<uint8_t>& labels
   object["confidence"] = Rounded(static_cast<double>(model.confidence));
   object["evidence"] = {NameOf(model.evidence[0]), NameOf(model.evidence[1]),
                         NameOf(model.evidence[2])};
+  object["covariance"] = Matrix(model.covariance);
   object["supported_by"] = model.supported_by;
   object["votes"] = model.num_votes;
   object["visible_px"] = std::count(labels.begin(), labels.end(), model.id);

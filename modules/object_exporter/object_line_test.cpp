@@ -16,6 +16,8 @@ ObjectModel Box() {
   box.solid.size = Eigen::Vector3d(0.12, 0.08, 1.0 / 3);
   box.evidence = {Evidence::kObserved, Evidence::kFreeSpace, Evidence::kAssumed};
   box.confidence = 0.75f;
+  box.covariance(3, 3) = 4e-6;
+  box.covariance(0, 3) = box.covariance(3, 0) = -1e-7;
   box.num_votes = 9;
   return box;
 }
@@ -45,6 +47,9 @@ TEST(ObjectLineTest, WritesABox) {
   EXPECT_EQ(box.at("size"), json::parse("[0.12, 0.08, 0.333333]"));
   EXPECT_EQ(box.at("confidence"), 0.75);
   EXPECT_EQ(box.at("evidence"), json::parse(R"(["observed", "free_space", "assumed"])"));
+  EXPECT_EQ(box.at("covariance").size(), 7u);
+  EXPECT_EQ(box.at("covariance").at(3).at(3), 4e-6);
+  EXPECT_EQ(box.at("covariance").at(0).at(3), box.at("covariance").at(3).at(0));
   EXPECT_EQ(box.at("votes"), 9);
   EXPECT_EQ(box.at("visible_px"), 2);
   EXPECT_FALSE(box.contains("radius"));

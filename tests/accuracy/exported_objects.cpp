@@ -45,6 +45,13 @@ ObjectModel ParseModel(const json& j) {
       model.evidence[i] = ParseEvidence(j.at("evidence").at(i).get<std::string>());
     }
   }
+  if (j.contains("covariance")) {
+    for (int row = 0; row < 7; ++row) {
+      for (int column = 0; column < 7; ++column) {
+        model.covariance(row, column) = j.at("covariance").at(row).at(column).get<double>();
+      }
+    }
+  }
   return model;
 }
 

@@ -41,6 +41,8 @@ json SummaryJson(const Summary& summary) {
   result["median_iou"] = summary.median_iou ? json(*summary.median_iou) : json();
   result["exact"] = summary.num_exact;
   result["within_20_mm"] = summary.num_within_20_mm;
+  result["estimates"] = summary.num_estimates;
+  result["in_95_percent_interval"] = summary.num_in_interval;
   result["by_distance"] = BinsJson(summary.by_distance);
   result["by_visible_fraction"] = BinsJson(summary.by_visible_fraction);
   for (const auto& [name, errors] : summary.errors) {

@@ -159,6 +159,29 @@ class Summarizer {
     const SolidError error = CompareSolids(model.solid, *object.solid);
     AddPoseErrors(model, error, &summary_.errors);
     summary_.num_within_20_mm += IsWithin(error, kMaxErrorM) ? 1 : 0;
+    AddIntervals(model, error);
+  }
+
+  void AddIntervals(const ObjectModel& model, const SolidError& error) {
+    const Eigen::Vector3d center_O = model.solid.X_CO.linear().transpose() * error.center_C;
+    for (int i = 0; i < 3; ++i) AddInterval(model, i, center_O[i]);
+    if (model.solid.shape == Shape::kCylinder) {
+      AddInterval(model, 3, 2 * error.extent[0]);
+      AddInterval(model, 5, error.extent[2]);
+      return;
+    }
+    for (size_t i = 0; i < 3; ++i) {
+      AddInterval(model, 3 + error.axis[i], error.extent[static_cast<Eigen::Index>(i)]);
+    }
+    AddInterval(model, 6, error.yaw_rad);
+  }
+
+  void AddInterval(const ObjectModel& model, int parameter, double error) {
+    constexpr double kSdOfInterval = 1.96;
+    const double variance = model.covariance(parameter, parameter);
+    if (variance <= 0) return;
+    ++summary_.num_estimates;
+    summary_.num_in_interval += std::abs(error) < kSdOfInterval * std::sqrt(variance) ? 1 : 0;
   }
 
   Summary summary_;

@@ -59,6 +59,8 @@ struct Summary {
   std::vector<RecallBin> by_visible_fraction;
   int num_exact = 0;         // core objects of exactly known pose and size
   int num_within_20_mm = 0;  // those with a match whose centre and extents are within 20 mm
+  int num_estimates = 0;     // parameters of right models with a standard deviation and exact truth
+  int num_in_interval = 0;   // those whose true value lies inside the 95 % interval
 };
 Summary Summarize(const std::vector<ScoredFrame>& frames);
 

@@ -87,6 +87,20 @@ TEST(Summarize, CountsMatchesWithin20MmAmongObjectsOfExactTruth) {
   EXPECT_EQ(Summarize({frame}).num_within_20_mm, 1);
 }
 
+TEST(Summarize, CountsTrueValuesInsideTheIntervals) {
+  ScoredFrame frame = OneOfEach();
+  frame.truth.objects[0].solid = frame.found.objects[0].solid;
+  frame.truth.objects[0].solid->size.z() -= 0.010;
+  EXPECT_EQ(Summarize({frame}).num_estimates, 0);
+  SolidCovariance& covariance = frame.found.objects[0].covariance;
+  covariance = SolidCovariance::Identity() * 1e-6;
+  Summary summary = Summarize({frame});
+  EXPECT_EQ(summary.num_estimates, 7);
+  EXPECT_EQ(summary.num_in_interval, 6);
+  covariance(5, 5) = 0.006 * 0.006;
+  EXPECT_EQ(Summarize({frame}).num_in_interval, 7);
+}
+
 TEST(SpreadOf, GivesSignedAndAbsoluteQuantiles) {
   const Spread spread = SpreadOf({-4, -3, -2, 1, 10});
   EXPECT_DOUBLE_EQ(spread.median, -2);

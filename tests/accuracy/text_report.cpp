@@ -172,6 +172,11 @@ void WriteTotals(const Summary& summary, std::ostream& out) {
   if (summary.num_exact > 0) {
     out << Format("right shape, centre and every dimension within 20 mm: %d of %d\n",
                   summary.num_within_20_mm, summary.num_exact);
+    if (summary.num_estimates > 0) {
+      out << Format("true values inside the 95 %% interval: %d of %d (%.1f %%)\n",
+                    summary.num_in_interval, summary.num_estimates,
+                    100.0 * summary.num_in_interval / summary.num_estimates);
+    }
   }
   WriteBins("core objects found", summary.by_distance, out);
   WriteBins("", summary.by_visible_fraction, out);

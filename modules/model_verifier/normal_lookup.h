@@ -8,10 +8,10 @@
 namespace declutter {
 
 // Surface normals of a depth image, one for 2 x 2 pixels, each computed when it is first asked for.
-class NormalImage {
+class NormalLookup {
  public:
   // image must outlive this.
-  explicit NormalImage(const DepthImage& image);
+  explicit NormalLookup(const DepthImage& image);
 
   // Unit normal at pixel (u, v) toward the camera, in C; zero where the surface around the pixel is
   // not smooth or not measured. From the gradient of inverse depth, which is constant on a plane,

@@ -1,4 +1,4 @@
-#include "modules/model_verifier/normal_image.h"
+#include "modules/model_verifier/normal_lookup.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@ constexpr float kMaxInverseJump = 0.020f;  // [1/m] 7 counts of disparity: anoth
 
 }  // namespace
 
-NormalImage::NormalImage(const DepthImage& image)
+NormalLookup::NormalLookup(const DepthImage& image)
     : image_(image),
       is_known_(image.counts.size(), 0),
       normals_(image.counts.size(), Eigen::Vector3f::Zero()) {}
 
-const Eigen::Vector3f& NormalImage::At(int u, int v) const {
+const Eigen::Vector3f& NormalLookup::At(int u, int v) const {
   u -= u % kStep;
   v -= v % kStep;
   const size_t i =
@@ -29,7 +29,7 @@ const Eigen::Vector3f& NormalImage::At(int u, int v) const {
   return normals_[i];
 }
 
-float NormalImage::MeanInverseDepth(int u, int v) const {
+float NormalLookup::MeanInverseDepth(int u, int v) const {
   const PinholeCamera& camera = image_.camera;
   if (u < 1 || v < 1 || u >= camera.width - 1 || v >= camera.height - 1) return 0;
   const auto centre = static_cast<float>(image_.DepthAt(u, v));
@@ -47,7 +47,7 @@ float NormalImage::MeanInverseDepth(int u, int v) const {
   return sum / static_cast<float>(num);
 }
 
-Eigen::Vector3f NormalImage::Compute(int u, int v) const {
+Eigen::Vector3f NormalLookup::Compute(int u, int v) const {
   const PinholeCamera& camera = image_.camera;
   const double z = image_.DepthAt(u, v);
   if (z <= 0) return Eigen::Vector3f::Zero();

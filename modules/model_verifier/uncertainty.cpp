@@ -1,0 +1,128 @@
+#include "modules/model_verifier/uncertainty.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "modules/geometry/sensor_noise.h"
+
+namespace declutter {
+namespace {
+
+constexpr double kPixelsPerSample = 36;  // over which the noise of a sensor is correlated
+constexpr double kFaceBias = 0.5;        // [sigma] of a face, however many points it has
+constexpr double kEdgeError = 1.0;       // [px] of an edge
+constexpr double kSupportSd = 0.0010;    // [m] of the support plane at an object
+constexpr double kAssumedSd = 0.030;     // [m] of a hidden end
+constexpr double kDepthBias = 0.8;       // [sigma] of all depths around an object
+constexpr double kMaxSd = 0.1;           // [m]
+
+double Square(double x) { return x * x; }
+
+// [m] along an axis of O at its end that one pixel covers.
+double PixelLength(const Solid& solid, int axis, int sign, const PinholeCamera& camera) {
+  constexpr double kStep = 0.001;  // [m]
+  Eigen::Vector3d p_O = Eigen::Vector3d(0, 0, 0.5 * solid.size.z());
+  p_O[axis] = 0.5 * sign * solid.size[axis];
+  const Eigen::Vector3d p_C = solid.X_CO * p_O;
+  const Eigen::Vector3d q_C = p_C + kStep * solid.X_CO.linear().col(axis);
+  if (p_C.z() <= 0.05 || q_C.z() <= 0.05) return kMaxSd;
+  return kStep / std::max(0.01, (camera.Project(q_C) - camera.Project(p_C)).norm());
+}
+
+// [m^2] of the place of one end.
+double VarianceOfEnd(const Solid& solid, EndEvidence end, int axis, int sign, double sigma,
+                     int num_points, const PinholeCamera& camera) {
+  switch (end) {
+    case EndEvidence::kFace:
+      return Square(sigma) * (kPixelsPerSample / std::max(1, num_points) + Square(kFaceBias));
+    case EndEvidence::kEdge:
+      return Square(kEdgeError * PixelLength(solid, axis, sign, camera)) +
+             Square(kFaceBias * sigma);
+    case EndEvidence::kSupport:
+      return Square(kSupportSd);
+    case EndEvidence::kFreeSpace:
+      return Square(0.5 * kFreeSpaceReach);
+    case EndEvidence::kAssumed:
+      return Square(kAssumedSd);
+  }
+  return Square(kMaxSd);
+}
+
+// Adds an end of an axis: centre and extent are (low + high) / 2 and high - low.
+void AddEnds(int axis, double variance_low, double variance_high, SolidCovariance* covariance) {
+  (*covariance)(axis, axis) += 0.25 * (variance_low + variance_high);
+  (*covariance)(3 + axis, 3 + axis) += variance_low + variance_high;
+  (*covariance)(axis, 3 + axis) += 0.5 * (variance_high - variance_low);
+  (*covariance)(3 + axis, axis) += 0.5 * (variance_high - variance_low);
+}
+
+// Of centre along x and y of O and radius, from the points on the side.
+Eigen::Matrix3d CovarianceOfSide(const Solid& solid, const RayEvidence& evidence, double sigma,
+                                 const DepthImage& image) {
+  const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
+  Eigen::Matrix3d H = Eigen::Matrix3d::Identity() / Square(kMaxSd);
+  for (const RayEvidence::ExplainedPixel& pixel : evidence.explained) {
+    const int u = pixel.pixel % image.camera.width;
+    const int v = pixel.pixel / image.camera.width;
+    const Eigen::Vector3d p_O = X_OC * image.PointAt(u, v);
+    const double distance = p_O.head<2>().norm();
+    if (distance - solid.radius() < std::abs(p_O.z()) - 0.5 * solid.height()) continue;
+    const Eigen::Vector3d J(-p_O.x() / distance, -p_O.y() / distance, -1);
+    H += evidence.pixel_weight / (kPixelsPerSample * Square(sigma)) * J * J.transpose();
+  }
+  return H.inverse() + Square(kFaceBias * sigma) * Eigen::Matrix3d::Identity();
+}
+
+// [rad^2] of the rotation about z of a box: the error of a face along its length.
+double VarianceOfYaw(const Solid& solid, const SolidEnds& ends, double sigma,
+                     const PinholeCamera& camera) {
+  double smallest = Square(0.5);
+  for (int axis = 0; axis < 2; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const EndEvidence end = ends[static_cast<size_t>(axis)][static_cast<size_t>(side)];
+      if (end != EndEvidence::kFace && end != EndEvidence::kEdge) continue;
+      const double length = solid.size[1 - axis];
+      const double variance =
+          VarianceOfEnd(solid, end, axis, side == 0 ? -1 : 1, sigma, 200, camera);
+      smallest = std::min(smallest, 12 * variance / Square(length));
+    }
+  }
+  return smallest;
+}
+
+}  // namespace
+
+SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends, const RayEvidence& evidence,
+                             const Observation& observation) {
+  const PinholeCamera& camera = observation.image.camera;
+  const double sigma = MeasurementSigma(solid.X_CO.translation().z());
+  SolidCovariance covariance = SolidCovariance::Zero();
+  const auto variance = [&](int axis, int side) {
+    return VarianceOfEnd(solid, ends[static_cast<size_t>(axis)][static_cast<size_t>(side)], axis,
+                         side == 0 ? -1 : 1, sigma, evidence.num_explained() / 3, camera);
+  };
+  AddEnds(2, variance(2, 0), variance(2, 1), &covariance);
+  if (solid.shape == Shape::kBox) {
+    AddEnds(0, variance(0, 0), variance(0, 1), &covariance);
+    AddEnds(1, variance(1, 0), variance(1, 1), &covariance);
+    covariance(6, 6) = VarianceOfYaw(solid, ends, sigma, camera);
+  } else {
+    // Diameters are twice the radius.
+    Eigen::Matrix<double, 4, 3> J = Eigen::Matrix<double, 4, 3>::Zero();
+    J(0, 0) = J(1, 1) = 1;
+    J(2, 2) = J(3, 2) = 2;
+    const Eigen::Matrix4d side =
+        J * CovarianceOfSide(solid, evidence, sigma, observation.image) * J.transpose();
+    const int indices[4] = {0, 1, 3, 4};
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) covariance(indices[i], indices[j]) += side(i, j);
+    }
+  }
+  const Eigen::Vector3d ray_O =
+      (solid.X_CO.linear().transpose() * solid.X_CO.translation()).normalized();
+  covariance.topLeftCorner<3, 3>() += Square(kDepthBias * sigma) * ray_O * ray_O.transpose();
+  return covariance;
+}
+
+}  // namespace declutter

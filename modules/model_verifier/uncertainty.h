@@ -1,0 +1,16 @@
+#pragma once
+
+#include "modules/geometry/solid.h"
+#include "modules/model_verifier/end_evidence.h"
+#include "modules/model_verifier/ray_casting.h"
+
+namespace declutter {
+
+// Covariance of a solid from what its ends rest on and, for a cylinder, from the points on its side
+// (the inverse of the normal matrix of the last fit). Every end has an error of its own; a position
+// has that of the depth in common, which no extent has. The standard deviations are those of
+// rendered scenes with the noise of a real sensor.
+SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends, const RayEvidence& evidence,
+                             const Observation& observation);
+
+}  // namespace declutter
