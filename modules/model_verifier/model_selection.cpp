@@ -90,7 +90,8 @@ class Selection {
       std::vector<size_t> instead;
       candidates_[old].is_out = true;
       while (const auto best = Best()) {
-        new_gain += candidates_[*best].gain;
+        // Every further object must pay for itself, or the parts of one would replace the whole.
+        new_gain += candidates_[*best].gain - (instead.empty() ? 0 : config_.min_explained_px());
         instead.push_back(*best);
         Select(*best);
       }

@@ -136,7 +136,7 @@ TEST(ExtentEvidence, IsObservedWithFreeSpaceAroundAndNotBehindAnOccluder) {
 TEST(ExtentEvidence, IsBoundedByFreeSpaceWhereTheOccluderEnds) {
   const RenderedScene scene = RenderText(
       "object { box { size_x_m: 0.2 size_y_m: 0.06 size_z_m: 0.12 } y_m: 0.75 }"
-      "object { box { size_x_m: 0.03 size_y_m: 0.06 size_z_m: 0.2 } x_m: 0.088 y_m: 0.66 }");
+      "object { box { size_x_m: 0.03 size_y_m: 0.06 size_z_m: 0.2 } x_m: 0.083 y_m: 0.66 }");
   EXPECT_EQ(EvidenceOf(scene, scene.objects[0].solid)[0], Evidence::kFreeSpace);
 }
 

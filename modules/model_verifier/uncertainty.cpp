@@ -13,8 +13,8 @@ constexpr double kPixelsPerSample = 36;  // over which the noise of a sensor is 
 constexpr double kFaceBias = 0.5;        // [sigma] of a face, however many points it has
 constexpr double kEdgeError = 1.0;       // [px] of an edge
 constexpr double kSupportSd = 0.0010;    // [m] of the support plane at an object
-constexpr double kAssumedSd = 0.030;     // [m] of a hidden end
-constexpr double kDepthBias = 0.8;       // [sigma] of all depths around an object
+constexpr double kAssumedSd = 0.025;     // [m] of a hidden end
+constexpr double kDepthBias = 0.5;       // [sigma] of all depths around an object
 constexpr double kMaxSd = 0.1;           // [m]
 
 double Square(double x) { return x * x; }
@@ -85,7 +85,7 @@ double VarianceOfYaw(const Solid& solid, const SolidEnds& ends, double sigma,
       const double length = solid.size[1 - axis];
       const double variance =
           VarianceOfEnd(solid, end, axis, side == 0 ? -1 : 1, sigma, 200, camera);
-      smallest = std::min(smallest, 12 * variance / Square(length));
+      smallest = std::min(smallest, 6 * variance / Square(length));
     }
   }
   return smallest;
