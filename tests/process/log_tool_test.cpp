@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "tests/process/fake_graph.h"
@@ -86,12 +87,13 @@ TEST_F(LogToolTest, PlaysToAGraphThatListens) {
                      "--record", again, "--log_dir", folder_.Path("logs")},
                     folder_);
   ASSERT_TRUE(Eventually([&] { return !UtimesOf("MODULE_STATUS", again).empty(); }));
-  const Outcome played =
-      Tool({"play", log_, "--channels", "DEPTH_FRAME", "--speed", "2", "--url", url});
-  EXPECT_EQ(played.code, 0) << played.err;
+  // A live graph takes the newest frame and may miss any one, the last of a playing too.
   EXPECT_TRUE(Eventually([&] {
+    const Outcome played =
+        Tool({"play", log_, "--channels", "DEPTH_FRAME", "--speed", "2", "--url", url});
+    EXPECT_EQ(played.code, 0) << played.err;
     const auto utimes = UtimesOf("OBJECTS", again);
-    return !utimes.empty() && utimes.back() == 50;
+    return std::find(utimes.begin(), utimes.end(), 50) != utimes.end();
   }));
   launcher.Signal(SIGTERM);
   EXPECT_EQ(launcher.Wait().code, 0) << ReadFile(folder_.Path("stderr"));
