@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "launcher/log_tool/frame_summary.h"
 #include "launcher/log_tool/log_scan.h"
 #include "launcher/log_tool/player.h"
 #include "lcmtypes/channels.h"
@@ -26,6 +27,9 @@ constexpr const char* kHelp = R"(log_tool: looks into logs of LCM
   log_tool info LOG [--graph]
       Channels with their types, rates, sizes and gaps, what made the log, and what is damaged;
       or the graph, with all parameters, that it was recorded from.
+  log_tool frames LOG
+      Frames in, out and skipped of each module, and how long after the depth of a frame its
+      messages were recorded.
   log_tool cut LOG NEW_LOG [PART]
       Copies a part of a log, without what is damaged.
   log_tool play LOG [PART] [--speed X] [--loop] [--url URL]
@@ -106,6 +110,12 @@ int Info(const std::string& log, bool shows_graph) {
   return summary.damages.empty() ? 0 : kFailure;
 }
 
+int Frames(const std::string& log) {
+  const FrameSummary summary = SummariseFrames(log);
+  std::cout << Text(summary) << std::flush;
+  return summary.damages.empty() ? 0 : kFailure;
+}
+
 int Cut(const std::string& log, const std::string& new_log, const Excerpt& excerpt) {
   runtime::EventLogWriter writer(new_log);
   std::optional<int64_t> first_us;
@@ -124,7 +134,7 @@ int Cut(const std::string& log, const std::string& new_log, const Excerpt& excer
 }
 
 int Act(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) throw ConfigError("info, cut or play what? --help tells more");
+  if (arguments.empty()) throw ConfigError("info, frames, cut or play what? --help tells more");
   for (const std::string& argument : arguments) {
     if (argument != "--help" && argument != "-h") continue;
     std::cout << kHelp;
@@ -132,17 +142,19 @@ int Act(const std::vector<std::string>& arguments) {
   }
   const CommandLine line = Parse(arguments);
   const std::string verb = line.operands.empty() ? "" : line.operands[0];
-  const std::map<std::string, size_t> num_operands = {{"info", 2}, {"cut", 3}, {"play", 2}};
+  const std::map<std::string, size_t> num_operands = {
+      {"info", 2}, {"frames", 2}, {"cut", 3}, {"play", 2}};
   const auto known = num_operands.find(verb);
   if (known == num_operands.end()) {
     throw ConfigError("unknown verb '" + verb + "'" +
-                      runtime::Suggestion(verb, {"info", "cut", "play"}));
+                      runtime::Suggestion(verb, {"info", "frames", "cut", "play"}));
   }
   if (line.operands.size() != known->second) {
     throw ConfigError(verb + ": a log is needed" +
                       (verb == "cut" ? ", and the name of a new one" : ""));
   }
   if (verb == "info") return Info(line.operands[1], line.shows_graph);
+  if (verb == "frames") return Frames(line.operands[1]);
   if (verb == "cut") return Cut(line.operands[1], line.operands[2], line.excerpt);
   const char* environment_url = std::getenv("LCM_DEFAULT_URL");
   std::string url =
