@@ -43,7 +43,7 @@ std::array<int, 2> CountPairs(const ObjectList& baseline, const ObjectList& cand
 }  // namespace
 
 bool FrameAgreement::IsSame() const {
-  return has_baseline && has_candidate && num_same == num_baseline && num_same == num_candidate;
+  return has_baseline == has_candidate && num_same == num_baseline && num_same == num_candidate;
 }
 
 std::vector<FrameAgreement> CompareRuns(const std::map<std::string, ObjectList>& baseline,

@@ -18,7 +18,7 @@ struct FrameAgreement {
   std::array<int, 2> num_candidate{};
   std::array<int, 2> num_same{};  // pairs whose centres and extents are within 20 mm
 
-  bool IsSame() const;  // both have a result, and every model is one of a pair
+  bool IsSame() const;  // both have a result or neither, and every model is one of a pair
 };
 
 // Every frame of either run, in the order of names. Models are paired one to one within a shape,

@@ -64,6 +64,7 @@ TEST(CompareRuns, DiffersWhereOneRunHasNoResult) {
   for (const FrameAgreement& frame : frames) EXPECT_FALSE(frame.IsSame()) << frame.frame;
   EXPECT_TRUE(frames[1].has_baseline);
   EXPECT_FALSE(frames[1].has_candidate);
+  EXPECT_TRUE(CompareRuns({{"b", failed}}, {{"b", failed}}).at(0).IsSame());
 }
 
 }  // namespace

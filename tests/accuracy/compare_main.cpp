@@ -113,6 +113,10 @@ void Compare(const fs::path& baseline, const fs::path& candidate, const fs::path
       "Errors are medians of absolute values. [95 %% intervals]: Wilson's for the shares of each\n"
       "run; for all else and for differences a bootstrap over frames, the same frames of both.\n"
       "Same in both: of one shape, centre and extents within 20 mm.\n");
+  constexpr size_t kMinFrames = 10;
+  if (frames.size() < kMinFrames || (!one.empty() && one.size() < kMinFrames)) {
+    std::printf("Of fewer than %zu frames a bootstrap's intervals are too narrow.\n", kMinFrames);
+  }
   PrintDifferences(frames, baseline, candidate, ScoreTexts(one, other));
 }
 

@@ -40,7 +40,8 @@ TEST_F(CompareTest, ScoresTwoRunsAndNamesTheFramesThatDiffer) {
   const Outcome same = Compare({output_, candidate_, scenes_});
   EXPECT_EQ(same.code, 0) << same.err;
   EXPECT_THAT(same.out,
-              AllOf(HasSubstr("2 frames, 2 with truth\n"), HasSubstr("\n0 of 2 frames differ\n"),
+              AllOf(HasSubstr("2 frames, 2 with truth\n"), HasSubstr("Of fewer than 10 frames"),
+                    HasSubstr("\n0 of 2 frames differ\n"),
                     ContainsRegex("box recall % +100.0 \\[34.2, 100.0\\] +100.0 \\[34.2, 100.0\\] "
                                   "+\\+0.0 \\[\\+0.0, \\+0.0\\]\n")));
 
