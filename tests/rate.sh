@@ -29,16 +29,19 @@ fi
 
 declare -A name_of ticks_of peak_kb_of  # by process number
 
-# Remembers what process $1 has used so far; one that has ended stays as it was.
+# Remembers what process $1 has used so far; one that has ended stays as it was. Starts no process of
+# its own, which would cost what is measured.
 look_at() {
-  local args=() stat status
-  { mapfile -d '' -t args <"/proc/$1/cmdline" && stat=$(<"/proc/$1/stat") &&
-    status=$(<"/proc/$1/status"); } 2>/dev/null || return 0
+  local args=() stat="" status="" fields
+  {
+    mapfile -d '' -t args <"/proc/$1/cmdline"
+    read -r stat <"/proc/$1/stat"
+    read -r -d '' status <"/proc/$1/status"
+  } 2>/dev/null || true
   # A program that is only asked for its description is no part of the graph.
   [[ "$status" =~ VmHWM:[[:space:]]*([0-9]+) && " ${args[*]} " != *" --describe "* ]] || return 0
   peak_kb_of[$1]=${BASH_REMATCH[1]}
   name_of[$1]=${args[0]##*/}
-  local fields
   read -r -a fields <<<"${stat##*) }"  # the name, in brackets, may hold anything
   ticks_of[$1]=$((fields[11] + fields[12]))
 }
@@ -55,8 +58,9 @@ build/bin/launcher run config/rate.textproto --record "$log" \
   --set kinect_source.num_frames="$num_frames" >"$out/launcher.log" 2>&1 &
 launcher=$!
 trap 'kill "$launcher" 2>/dev/null || true' EXIT
+children=
 while kill -0 "$launcher" 2>/dev/null; do
-  children=$(cat "/proc/$launcher/task/$launcher/children" 2>/dev/null || true)
+  read -r children 2>/dev/null <"/proc/$launcher/task/$launcher/children" || true
   for process in $launcher $children; do look_at "$process"; done
   sleep 0.2
 done
