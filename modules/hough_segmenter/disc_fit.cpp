@@ -8,13 +8,15 @@
 namespace declutter {
 namespace {
 
-constexpr size_t kMaxCorners = 18;       // edge points that circles are laid through
-constexpr size_t kMaxScored = 120;       // edge points that decide between them
-constexpr float kMaxEdgeError = 0.003f;  // [m] of an edge point on the circle
-constexpr float kMinShare = 0.6f;        // of the edge points that must lie on the circle
-constexpr float kMaxOutside = 0.05f;     // share of the patch that may lie outside
-constexpr float kMinSagitta = 0.004f;    // [m] of the arc: what tells it from a straight edge
-constexpr float kArcBin = 0.15f;         // [rad]
+constexpr size_t kMaxCorners = 18;        // edge points that circles are laid through
+constexpr size_t kMaxScored = 120;        // edge points that decide between them
+constexpr float kMaxEdgeError = 0.003f;   // [m] of an edge point on the circle
+constexpr float kMinShareOfPart = 0.25f;  // the same where other faces belong to the patch
+constexpr float kMinArcOfPart = 2.0f;     // [rad] that must be seen then
+constexpr float kMinShare = 0.6f;         // of the edge points that must lie on the circle
+constexpr float kMaxOutside = 0.05f;      // share of the patch that may lie outside
+constexpr float kMinSagitta = 0.004f;     // [m] of the arc: what tells it from a straight edge
+constexpr float kArcBin = 0.15f;          // [rad]
 
 using Points = std::vector<Eigen::Vector2f>;
 
@@ -38,12 +40,20 @@ Points EveryNth(const Points& points, size_t max_num) {
   return some;
 }
 
-float NumOn(const Points& edge, const CircleModel& circle, float tolerance) {
-  int num = 0;
+// Edge points on the circle, and inside, where a disc has no edge.
+struct EdgeCount {
+  int num_on = 0;
+  int num_inside = 0;
+};
+
+EdgeCount Count(const Points& edge, const CircleModel& circle, float tolerance) {
+  EdgeCount count;
   for (const Eigen::Vector2f& p : edge) {
-    num += std::abs((p - circle.c).norm() - circle.r) < tolerance;
+    const float distance = (p - circle.c).norm() - circle.r;
+    count.num_on += std::abs(distance) < tolerance;
+    count.num_inside += distance < -2 * tolerance;
   }
-  return static_cast<float>(num);
+  return count;
 }
 
 // Least squares on the edge points near the circle.
@@ -85,34 +95,63 @@ bool Contains(const TopPatch& patch, const CircleModel& circle, float tolerance)
   return static_cast<float>(num_outside) < kMaxOutside * static_cast<float>(patch.points.size());
 }
 
+// The circle through three of the corners that scores best; nothing when none scores at all.
+template <typename Score>
+std::optional<CircleModel> BestCircle(const Points& corners, float min_radius_m, float max_radius_m,
+                                      Score score) {
+  std::optional<CircleModel> best;
+  int best_score = 0;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    for (size_t j = i + 1; j < corners.size(); ++j) {
+      for (size_t k = j + 1; k < corners.size(); ++k) {
+        const auto circle = CircleThrough(corners[i], corners[j], corners[k]);
+        if (!circle || circle->r < min_radius_m || circle->r > max_radius_m) continue;
+        const int circle_score = score(*circle);
+        if (circle_score <= best_score) continue;
+        best_score = circle_score;
+        best = circle;
+      }
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<CircleModel> FitDisc(const TopPatch& patch, float min_radius_m, float max_radius_m) {
   const float tolerance = std::max(kMaxEdgeError, 2 * patch.sigma);
   const Points corners = EveryNth(patch.free_edge, kMaxCorners);
   const Points scored = EveryNth(patch.free_edge, kMaxScored);
-  CircleModel best;
-  float best_num = 0;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    for (size_t j = i + 1; j < corners.size(); ++j) {
-      for (size_t k = j + 1; k < corners.size(); ++k) {
-        const auto circle = CircleThrough(corners[i], corners[j], corners[k]);
-        if (!circle || circle->r < min_radius_m || circle->r > max_radius_m) continue;
-        const float num = NumOn(scored, *circle, tolerance);
-        if (num <= best_num) continue;
-        best_num = num;
-        best = *circle;
-      }
+  const auto share = [&](int num) {
+    return static_cast<float>(num) / static_cast<float>(scored.size());
+  };
+  const auto arc = [&](const CircleModel& circle) {
+    return std::min(ArcOf(patch.free_edge, circle, tolerance), static_cast<float>(M_PI));
+  };
+  const auto refit = [&](std::optional<CircleModel>* circle) {
+    if (*circle) FitToEdge(patch.free_edge, 2 * tolerance, &**circle);
+    if (*circle && ((*circle)->r < min_radius_m || (*circle)->r > max_radius_m)) circle->reset();
+  };
+
+  const auto num_on = [&](const CircleModel& c) { return Count(scored, c, tolerance).num_on; };
+  std::optional<CircleModel> whole = BestCircle(corners, min_radius_m, max_radius_m, num_on);
+  if (whole && share(num_on(*whole)) >= kMinShare) {
+    refit(&whole);
+    if (whole && whole->r * (1 - std::cos(0.5f * arc(*whole))) >= kMinSagitta &&
+        Contains(patch, *whole, tolerance)) {
+      return whole;
     }
   }
-  if (best_num < kMinShare * static_cast<float>(scored.size())) return std::nullopt;
-  FitToEdge(patch.free_edge, 2 * tolerance, &best);
-  if (best.r < min_radius_m || best.r > max_radius_m) return std::nullopt;
-  const float arc = std::min(ArcOf(patch.free_edge, best, tolerance), static_cast<float>(M_PI));
-  if (best.r * (1 - std::cos(0.5f * arc)) < kMinSagitta || !Contains(patch, best, tolerance)) {
-    return std::nullopt;
-  }
-  return best;
+  // Faces of one height that touch are one patch: a disc may be a part of it.
+  const auto balance = [&](const CircleModel& c) {
+    const EdgeCount count = Count(scored, c, tolerance);
+    return count.num_on - 2 * count.num_inside;
+  };
+  std::optional<CircleModel> part = BestCircle(corners, min_radius_m, max_radius_m, balance);
+  if (!part || share(balance(*part)) < kMinShareOfPart) return std::nullopt;
+  refit(&part);
+  if (!part || arc(*part) < kMinArcOfPart) return std::nullopt;
+  return part;
 }
 
 }  // namespace declutter
