@@ -222,5 +222,19 @@ TEST(RefineIfNoWorse, KeepsASolidThatAFitWouldLeadAstray) {
   EXPECT_NEAR(solid.radius(), truth.radius(), 0.006);
 }
 
+TEST(RefineIfNoWorse, FindsACylinderByItsTopWhereItsSideIsHidden) {
+  const RenderedScene scene = RenderText(
+      "object { cylinder { radius_m: 0.04 height_m: 0.12 } y_m: 0.7 }"
+      "object { box { size_x_m: 0.2 size_y_m: 0.05 size_z_m: 0.09 } y_m: 0.62 }");
+  const NormalLookup normals(scene.depth);
+  const Observation observation{scene.depth, normals, scene.table};
+  const Solid truth = scene.objects[0].solid;
+  Solid solid = Changed(truth, {0.003, -0.002, 0}, {0.008, 0.008, 0});
+  RayEvidence evidence = CastRays(solid, observation);
+  RefineIfNoWorse(observation, observation, &solid, &evidence);
+  EXPECT_NEAR(solid.radius(), truth.radius(), 0.002);
+  EXPECT_LT((solid.X_CO.translation() - truth.X_CO.translation()).norm(), 0.003);
+}
+
 }  // namespace
 }  // namespace declutter

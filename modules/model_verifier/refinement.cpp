@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "modules/model_verifier/ray_casting.h"
@@ -246,16 +247,58 @@ Solid Refine(const Solid& solid, const Observation& observation) {
                                     : RefineCylinder(solid, observation);
 }
 
+namespace {
+
+// Moves centre and radius of an upright cylinder in small steps as long as more speaks for it: the
+// outline of its top and the space around it count where too little of its side is seen for a fit.
+void ClimbCylinder(const Observation& observation, Solid* solid, RayEvidence* evidence) {
+  constexpr double kSteps[] = {0.002, 0.001};  // [m]
+  constexpr int kMaxRounds = 3;
+  // Away from the camera, across the axis.
+  Eigen::Vector3d back_O = -solid->X_CO.inverse().translation();
+  back_O.z() = 0;
+  back_O.normalize();
+  const Eigen::Vector3d right_O(-back_O.y(), back_O.x(), 0);
+  // (growth of the radius, shift of the centre): about the centre, and with the back, the front or
+  // a side left where it is.
+  const std::pair<double, Eigen::Vector3d> directions[] = {
+      {1, Eigen::Vector3d::Zero()}, {1, -back_O}, {1, back_O}, {0, back_O}, {0, right_O}};
+  for (const double step : kSteps) {
+    for (int round = 0; round < kMaxRounds; ++round) {
+      bool has_climbed = false;
+      for (const auto& [growth, shift_O] : directions) {
+        for (const double sign : {-step, step}) {
+          Solid moved = *solid;
+          moved.X_CO.translation() += sign * (moved.X_CO.linear() * shift_O);
+          moved.size.head<2>().array() += 2 * sign * growth;
+          if (moved.radius() < 0.01) continue;
+          RayEvidence moved_evidence = CastRays(moved, observation);
+          if (moved_evidence.Balance() <= evidence->Balance()) continue;
+          *solid = moved;
+          *evidence = std::move(moved_evidence);
+          has_climbed = true;
+        }
+      }
+      if (!has_climbed) break;
+    }
+  }
+}
+
+}  // namespace
+
 void RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
                      RayEvidence* evidence) {
   constexpr double kMaxLoss = 0.02;  // of the explained pixels: noise of the balance
   const Solid refined = Refine(*solid, fitted);
   RayEvidence refined_evidence = CastRays(refined, judging);
   if (refined_evidence.Balance() < evidence->Balance() - kMaxLoss * evidence->num_explained()) {
+    if (solid->shape == Shape::kCylinder) ClimbCylinder(judging, solid, evidence);
     return;
   }
+  const bool has_moved = refined.size != solid->size;
   *solid = refined;
   *evidence = std::move(refined_evidence);
+  if (!has_moved && solid->shape == Shape::kCylinder) ClimbCylinder(judging, solid, evidence);
 }
 
 }  // namespace declutter
