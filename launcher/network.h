@@ -8,6 +8,10 @@ namespace declutter::launcher {
 // the largest receive buffer that the kernel grants up to 4 MiB.
 std::string ChooseUrl();
 
+// The url with the largest receive buffer that the system allows, where it names none: with the
+// usual one a busy machine loses the larger messages.
+std::string WithReceiveBuffer(const std::string& url);
+
 // Proves with a message of 150 KB, more than the largest of ours needs, that the url carries
 // messages. Where it does not (no multicast route, or fragments are lost) moves this process into
 // a network of its own, which holds nothing but the loopback, and proves it there; what we start

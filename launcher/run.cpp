@@ -176,7 +176,7 @@ std::vector<Node> PlanNodes(const ResolvedGraph& graph, const RunOptions& option
 
 int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
   RunOptions options = requested;
-  if (options.url.empty()) options.url = ChooseUrl();
+  options.url = options.url.empty() ? ChooseUrl() : WithReceiveBuffer(options.url);
   if (options.is_isolated) Isolate();
   const UrlClaim claim(options.url);
   EnsureMulticast(options.url);
