@@ -13,7 +13,7 @@ packages=(
   libopenni2-dev                     # depth sensors and .oni files
   libpng-dev libturbojpeg0-dev libzstd-dev nlohmann-json3-dev libyaml-cpp-dev
   libhwy-dev                         # SIMD with dispatch at run time
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libgtest-dev libgmock-dev libbenchmark-dev procps
 )
 
 is_installed() {
