@@ -5,9 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -70,12 +68,8 @@ Options ParseOptions(const std::vector<std::string>& arguments) {
   return options;
 }
 
-declutter::Scene ReadScene(const Options& options) {
-  std::ifstream file(options.scene);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::invalid_argument(options.scene + ": cannot be read");
-  declutter::Scene scene = declutter::ParseScene(text.str(), options.scene);
+declutter::Scene SceneOf(const Options& options) {
+  declutter::Scene scene = declutter::ReadScene(options.scene);
   if (options.noise.empty()) return scene;
   // Checked as scene text is, under the flag's name.
   scene.mutable_noise()->MergeFrom(
@@ -108,7 +102,7 @@ int main(int argc, char** argv) {
   }
   try {
     const Options options = ParseOptions(arguments);
-    const declutter::Scene scene = ReadScene(options);
+    const declutter::Scene scene = SceneOf(options);
     try {
       RenderAll(scene, options);
     } catch (const std::invalid_argument& fault) {

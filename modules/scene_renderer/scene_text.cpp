@@ -5,6 +5,7 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -131,6 +132,14 @@ Scene ParseScene(const std::string& text, const std::string& name) {
   if (faults.text().empty()) CheckMeaning(scene, places, &faults);
   if (!faults.text().empty()) throw std::invalid_argument(faults.text());
   return scene;
+}
+
+Scene ReadScene(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw std::invalid_argument(path + ": cannot be read");
+  return ParseScene(text.str(), path);
 }
 
 std::string PrintScene(const Scene& scene) {

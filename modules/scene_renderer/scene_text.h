@@ -11,6 +11,9 @@ namespace declutter {
 // their range, then objects that cannot be put down as stated.
 Scene ParseScene(const std::string& text, const std::string& name);
 
+// The scene in a file, parsed as above; throws the same when it cannot be read.
+Scene ReadScene(const std::string& path);
+
 // The scene as text that ParseScene reads back equal.
 std::string PrintScene(const Scene& scene);
 

@@ -2,26 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "modules/scene_renderer/scene_renderer.h"
 #include "modules/scene_renderer/scene_text.h"
 
 namespace declutter {
-namespace {
-
-Scene ReadScene(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::invalid_argument(path + ": cannot be read");
-  return ParseScene(text.str(), path);
-}
-
-}  // namespace
-
 RenderedImages RenderImages(const SyntheticSensor& sensor, const std::string& path) {
   const std::string scene_path = std::filesystem::path(path).parent_path() / sensor.scene();
   const Scene scene = ReadScene(scene_path);

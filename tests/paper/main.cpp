@@ -3,7 +3,6 @@
 #include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "modules/scene_renderer/scene_text.h"
@@ -18,14 +17,6 @@ constexpr char kUsage[] =
     "Prints Table 2 of the paper on the scene text SCENE, Figure 4 (as a table) and Table 3 on\n"
     "NUMBER scenes (20) of the scene text CLUTTER, and writes all of it to REPORT as JSON.\n";
 constexpr int kNumRuns = 10;
-
-Scene ReadScene(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::invalid_argument(path + ": cannot be read");
-  return ParseScene(text.str(), path);
-}
 
 int ToNumber(const std::string& text) {
   if (text.empty() || text.size() > 4 ||
