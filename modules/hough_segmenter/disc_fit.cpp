@@ -11,9 +11,9 @@ namespace {
 constexpr size_t kMaxCorners = 18;        // edge points that circles are laid through
 constexpr size_t kMaxScored = 120;        // edge points that decide between them
 constexpr float kMaxEdgeError = 0.003f;   // [m] of an edge point on the circle
+constexpr float kMinShare = 0.6f;         // of the edge points that must lie on the circle
 constexpr float kMinShareOfPart = 0.25f;  // the same where other faces belong to the patch
 constexpr float kMinArcOfPart = 2.0f;     // [rad] that must be seen then
-constexpr float kMinShare = 0.6f;         // of the edge points that must lie on the circle
 constexpr float kMaxOutside = 0.05f;      // share of the patch that may lie outside
 constexpr float kMinSagitta = 0.004f;     // [m] of the arc: what tells it from a straight edge
 constexpr float kArcBin = 0.15f;          // [rad]

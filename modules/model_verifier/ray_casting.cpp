@@ -141,11 +141,10 @@ class RayCast {
     const PinholeCamera& camera = observation_.image.camera;
     const PixelWindow window = ProjectionWindow(solid_, kMaxOverhang, camera);
     const int step = observation_.step;
-    const auto first = [step](int begin) { return (begin + step - 1) / step * step; };
     const Eigen::Vector3d right_O = caster_.X_OC().linear().col(0) / camera.fx;
-    for (int v = first(window.v_begin); v < window.v_end; v += step) {
+    for (int v = observation_.First(window.v_begin); v < window.v_end; v += step) {
       const Eigen::Vector3d left_O = caster_.X_OC().linear() * camera.Ray(0, v);
-      for (int u = first(window.u_begin); u < window.u_end; u += step) {
+      for (int u = observation_.First(window.u_begin); u < window.u_end; u += step) {
         See(u, v, left_O + u * right_O);
       }
     }

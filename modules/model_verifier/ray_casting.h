@@ -19,6 +19,9 @@ struct Observation {
   const Plane& support;
   int step = 1;
 
+  // The first of these rows or columns that is not before `begin`.
+  int First(int begin) const { return (begin + step - 1) / step * step; }
+
   // [px] that each of these pixels stands for.
   int pixel_weight() const { return step * step; }
 };

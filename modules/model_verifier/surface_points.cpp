@@ -10,12 +10,11 @@ std::vector<SurfacePoint> PointsNear(const Solid& solid, double margin_m,
   const PinholeCamera& camera = observation.image.camera;
   const PixelWindow window = ProjectionWindow(solid, margin_m, camera);
   const int step = observation.step;
-  const auto first = [step](int begin) { return (begin + step - 1) / step * step; };
   const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
   const Eigen::Vector3d half = 0.5 * solid.size + Eigen::Vector3d::Constant(margin_m);
   std::vector<SurfacePoint> points;
-  for (int v = first(window.v_begin); v < window.v_end; v += step) {
-    for (int u = first(window.u_begin); u < window.u_end; u += step) {
+  for (int v = observation.First(window.v_begin); v < window.v_end; v += step) {
+    for (int u = observation.First(window.u_begin); u < window.u_end; u += step) {
       const double z = observation.image.DepthAt(u, v);
       if (z <= 0) continue;
       const Eigen::Vector3d ray_C = camera.Ray(u, v);
