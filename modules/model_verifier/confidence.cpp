@@ -12,27 +12,13 @@ constexpr double kAssumedDepthFactor = 0.75;  // of the confidence where only on
 
 }  // namespace
 
-int NumUnexplained(const Solid& solid, const DepthImage& image, const Plane& support,
-                   const std::vector<uint8_t>& labels) {
-  const PixelWindow window = ProjectionWindow(solid, kUnexplainedReach, image.camera);
-  const SolidCaster caster(solid);
-  int num = 0;
-  for (int v = window.v_begin; v < window.v_end; ++v) {
-    for (int u = window.u_begin; u < window.u_end; ++u) {
-      const double z = image.DepthAt(u, v);
-      if (z <= 0 || labels[static_cast<size_t>(v * image.camera.width + u)] != 0) continue;
-      const Eigen::Vector3d p_C = image.camera.Ray(u, v) * z;
-      num += caster.SignedDistance(caster.X_OC() * p_C) < kUnexplainedReach &&
-             support.Height(p_C) > 1.5 * SurfaceTolerance(z);
-    }
-  }
-  return num;
+int NumUnexplained(const Solid& solid, const Observation& unlabelled) {
+  return NumNear(solid, kUnexplainedReach, unlabelled);
 }
 
 double Confidence(const ObjectModel& object, const RayEvidence& evidence, int num_unexplained) {
   if (object.solid.size.minCoeff() < kMinExtent) return 0;
-  double fit = 0;
-  for (const auto& pixel : evidence.explained) fit += pixel.fit;
+  double fit = evidence.Fit();
   if (object.evidence[1] == Evidence::kAssumed) fit *= kAssumedDepthFactor;
   const auto num_explained = static_cast<double>(evidence.explained.size());
   return fit / std::max(1.0, num_explained + evidence.num_violating + evidence.num_contradicting +

@@ -1,18 +1,14 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "modules/geometry/solid.h"
 #include "modules/model_verifier/ray_casting.h"
 
 namespace declutter {
 
-// Points above the support within reach of a solid that no object explains: where there are many,
-// something else stands there than a box or an upright cylinder. labels is the label image,
-// row-major.
-int NumUnexplained(const Solid& solid, const DepthImage& image, const Plane& support,
-                   const std::vector<uint8_t>& labels);
+// Points above the support within reach of a solid, of an observation without the pixels that
+// objects explain: where there are many, something else stands there than a box or an upright
+// cylinder.
+int NumUnexplained(const Solid& solid, const Observation& unlabelled);
 
 // In [0, 1]: mean fit of the explained pixels, times their share of all pixels that speak for or
 // against the solid, unmeasured ones a little; less where its depth is a guess, 0 where it is too

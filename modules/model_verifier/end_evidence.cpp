@@ -63,9 +63,9 @@ std::array<std::array<int, 2>, 3> PointsOnFaces(const Solid& solid, const RayEvi
                                                 const DepthImage& image) {
   std::array<std::array<int, 2>, 3> num = {};
   const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
-  for (const RayEvidence::ExplainedPixel& pixel : evidence.explained) {
-    const int u = pixel.pixel % image.camera.width;
-    const int v = pixel.pixel / image.camera.width;
+  for (int32_t pixel : evidence.explained) {
+    const int u = pixel % image.camera.width;
+    const int v = pixel / image.camera.width;
     const Eigen::Vector3d p_O = X_OC * image.PointAt(u, v);
     int axis = 0;
     (p_O.cwiseAbs() - 0.5 * solid.size).maxCoeff(&axis);

@@ -61,7 +61,7 @@ class Selection {
   Selection(const ModelVerifierConfig& config, const Observation& observation)
       : config_(config),
         observation_(observation),
-        num_explaining_(observation.image.counts.size(), 0) {}
+        num_explaining_(static_cast<size_t>(observation.grid.num_pixels()), 0) {}
 
   void Add(const Hypothesis& hypothesis) {
     Candidate candidate{hypothesis, CastRays(hypothesis.solid, observation_)};
@@ -156,11 +156,12 @@ class Selection {
 
   double Gain(const Candidate& candidate) const {
     const RayEvidence& evidence = candidate.evidence;
-    double gain = 0;
-    for (const auto& pixel : evidence.explained) {
-      if (num_explaining_[static_cast<size_t>(pixel.pixel)] == 0) gain += pixel.fit;
+    int64_t fit_sum = 0;
+    for (size_t i = 0; i < evidence.explained.size(); ++i) {
+      const bool is_free = num_explaining_[static_cast<size_t>(evidence.explained[i])] == 0;
+      fit_sum += is_free ? evidence.fits[i] : 0;
     }
-    gain *= evidence.pixel_weight;
+    const double gain = static_cast<double>(evidence.pixel_weight * fit_sum) / kFitUnit;
     double penalty =
         config_.violation_weight() *
         (evidence.num_violating + evidence.num_contradicting + evidence.num_overhanging);
@@ -183,8 +184,8 @@ class Selection {
   }
 
   void Mark(const Candidate& selected, int change) {
-    for (const auto& pixel : selected.evidence.explained) {
-      num_explaining_[static_cast<size_t>(pixel.pixel)] += change;
+    for (int32_t pixel : selected.evidence.explained) {
+      num_explaining_[static_cast<size_t>(pixel)] += change;
     }
     for (Candidate& candidate : candidates_) {
       if (!candidate.is_selected && &candidate != &selected && AreRivals(candidate, selected)) {

@@ -12,27 +12,34 @@
 namespace declutter {
 namespace {
 
-// [px] between the pixels that models are selected by; what is selected is measured with all.
-constexpr int kSelectionStep = 2;
-
 // Fills the empty label image: each pixel belongs to the object whose surface it fits best; what is
 // seen inside an open cylinder belongs to it when nothing else explains it.
 void Label(const std::vector<RayEvidence>& evidence, ObjectList* list) {
-  std::vector<float> best(list->labels.size(), 0);
+  std::vector<int32_t> best(list->labels.size(), 0);  // in kFitUnit
   for (size_t i = 0; i < evidence.size(); ++i) {
-    for (const auto& pixel : evidence[i].explained) {
-      const auto p = static_cast<size_t>(pixel.pixel);
-      if (pixel.fit <= best[p]) continue;
-      best[p] = pixel.fit;
-      list->labels[p] = static_cast<uint8_t>(i + 1);
+    for (size_t k = 0; k < evidence[i].explained.size(); ++k) {
+      const auto pixel = static_cast<size_t>(evidence[i].explained[k]);
+      if (evidence[i].fits[k] <= best[pixel]) continue;
+      best[pixel] = evidence[i].fits[k];
+      list->labels[pixel] = static_cast<uint8_t>(i + 1);
     }
   }
   for (size_t i = 0; i < evidence.size(); ++i) {
-    for (int pixel : evidence[i].hollow) {
+    for (int32_t pixel : evidence[i].hollow) {
       uint8_t& label = list->labels[static_cast<size_t>(pixel)];
       if (label == 0) label = static_cast<uint8_t>(i + 1);
     }
   }
+}
+
+// The grid of all pixels without those of objects.
+PixelGrid WithoutLabelled(PixelGrid grid, const std::vector<uint8_t>& labels) {
+  for (int v = 0; v < grid.rows; ++v) {
+    float* z = &grid.z[static_cast<size_t>(v) * grid.stride];
+    const uint8_t* label = &labels[static_cast<size_t>(v) * static_cast<size_t>(grid.columns)];
+    for (int u = 0; u < grid.columns; ++u) z[u] = label[u] == 0 ? z[u] : 0;
+  }
+  return grid;
 }
 
 // Renumbers what is left after objects below the least confidence are gone.
@@ -67,9 +74,11 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   if (list.planes.empty() || frame.image.empty()) return list;
 
   const Plane& support = list.planes[0];
-  const NormalLookup normals(frame.image);
-  const Observation observation{frame.image, normals, support};
-  const Observation coarse{frame.image, normals, support, kSelectionStep};
+  ObservedImage observed;
+  observed.Set(frame.image, support);
+  // Models are selected by every second pixel; what is selected is measured with all.
+  const Observation observation = observed.every_pixel();
+  const Observation coarse = observed.every_second_pixel();
   for (Candidate& candidate : SelectModels(config_, hypotheses.hypotheses, coarse)) {
     ObjectModel object;
     object.solid = candidate.hypothesis.solid;
@@ -90,10 +99,12 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
     object.id = static_cast<int32_t>(evidence.size());
   }
   Label(evidence, &list);
+  const PixelGrid unlabelled_grid = WithoutLabelled(observation.grid, list.labels);
+  const Observation unlabelled{frame.image, unlabelled_grid, observation.normals, support};
   for (size_t i = 0; i < list.objects.size(); ++i) {
     ObjectModel& object = list.objects[i];
-    object.confidence = static_cast<float>(Confidence(
-        object, evidence[i], NumUnexplained(object.solid, frame.image, support, list.labels)));
+    object.confidence = static_cast<float>(
+        Confidence(object, evidence[i], NumUnexplained(object.solid, unlabelled)));
     const SolidEnds ends = EndsOf(object.solid, object.evidence, evidence[i], coarse);
     object.evidence = ExtentEvidence(ends);
     object.covariance = CovarianceOf(object.solid, ends, evidence[i], observation);

@@ -44,8 +44,9 @@ ObjectList Verify(const RenderedScene& scene, const std::vector<Hypothesis>& hyp
 }
 
 Solid RefineOn(const RenderedScene& scene, const Solid& solid) {
-  const NormalLookup normals(scene.depth);
-  return Refine(solid, {scene.depth, normals, scene.table});
+  ObservedImage observed;
+  observed.Set(scene.depth, scene.table);
+  return Refine(solid, observed.every_pixel());
 }
 
 constexpr char kBox[] =
@@ -117,8 +118,9 @@ TEST(ModelVerifier, GivesAnEmptyListForAnEmptyFrame) {
 }
 
 std::array<Evidence, 3> EvidenceOf(const RenderedScene& scene, const Solid& solid) {
-  const NormalLookup normals(scene.depth);
-  const Observation observation{scene.depth, normals, scene.table};
+  ObservedImage observed;
+  observed.Set(scene.depth, scene.table);
+  const Observation observation = observed.every_pixel();
   return ExtentEvidence(EndsOf(solid, {}, CastRays(solid, observation), observation));
 }
 
@@ -210,8 +212,9 @@ TEST(RefineIfNoWorse, KeepsASolidThatAFitWouldLeadAstray) {
   const RenderedScene scene = RenderText(
       "object { cylinder { radius_m: 0.03 height_m: 0.12 } x_m: 0.03 y_m: 0.7 }"
       "object { box { size_x_m: 0.2 size_y_m: 0.05 size_z_m: 0.14 } x_m: -0.06 y_m: 0.6 }");
-  const NormalLookup normals(scene.depth);
-  const Observation observation{scene.depth, normals, scene.table};
+  ObservedImage observed;
+  observed.Set(scene.depth, scene.table);
+  const Observation observation = observed.every_pixel();
   const Solid truth = scene.objects[0].solid;
   Solid solid = truth;
   RayEvidence evidence = CastRays(solid, observation);
@@ -226,8 +229,9 @@ TEST(RefineIfNoWorse, FindsACylinderByItsTopWhereItsSideIsHidden) {
   const RenderedScene scene = RenderText(
       "object { cylinder { radius_m: 0.04 height_m: 0.12 } y_m: 0.7 }"
       "object { box { size_x_m: 0.2 size_y_m: 0.05 size_z_m: 0.09 } y_m: 0.62 }");
-  const NormalLookup normals(scene.depth);
-  const Observation observation{scene.depth, normals, scene.table};
+  ObservedImage observed;
+  observed.Set(scene.depth, scene.table);
+  const Observation observation = observed.every_pixel();
   const Solid truth = scene.objects[0].solid;
   Solid solid = Changed(truth, {0.003, -0.002, 0}, {0.008, 0.008, 0});
   RayEvidence evidence = CastRays(solid, observation);

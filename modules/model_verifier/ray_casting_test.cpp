@@ -27,39 +27,10 @@ DepthImage Wall(int depth_mm) {
 // A support plane far behind everything.
 Plane FarPlane() { return {-Eigen::Vector3d::UnitZ(), 5.0}; }
 
-RayEvidence CastAt(const Solid& solid, const DepthImage& image, const Plane& support,
-                   int step = 1) {
-  const NormalLookup normals(image);
-  return CastRays(solid, {image, normals, support, step});
-}
-
-// A ray of C in the frame of the solid.
-Eigen::Vector3d RayInO(const SolidCaster& caster, const Eigen::Vector3d& ray_C) {
-  return caster.X_OC().linear() * ray_C;
-}
-
-TEST(SolidCaster, MeetsABoxWhereItsFacesAre) {
-  const SolidCaster caster(FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1}));
-  const auto passage = caster.Cast(RayInO(caster, {0, 0, 1}));
-  ASSERT_TRUE(passage);
-  EXPECT_NEAR(passage->z_in, 0.95, 1e-12);
-  EXPECT_NEAR(passage->z_out, 1.05, 1e-12);
-  EXPECT_TRUE(passage->through_top);
-  EXPECT_FALSE(caster.Cast(RayInO(caster, {0.2, 0, 1})));
-}
-
-TEST(SolidCaster, MeetsTheSideOfACylinder) {
-  Solid solid;
-  solid.shape = Shape::kCylinder;
-  solid.X_CO.linear() = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  solid.X_CO.translation() = Eigen::Vector3d(0, 0, 1);
-  solid.size = Eigen::Vector3d(0.1, 0.1, 0.3);
-  const SolidCaster caster(solid);
-  const auto passage = caster.Cast(RayInO(caster, {0, 0, 1}));
-  ASSERT_TRUE(passage);
-  EXPECT_NEAR(passage->z_in, 0.95, 1e-12);
-  EXPECT_NEAR(passage->z_out, 1.05, 1e-12);
-  EXPECT_FALSE(passage->through_top);
+RayEvidence CastAt(const Solid& solid, const DepthImage& image, const Plane& support) {
+  ObservedImage observed;
+  observed.Set(image, support);
+  return CastRays(solid, observed.every_pixel());
 }
 
 TEST(SolidCaster, KnowsTheDistanceToItsSurface) {
@@ -72,14 +43,6 @@ TEST(SolidCaster, KnowsTheDistanceToItsSurface) {
   EXPECT_NEAR(cylinder.SignedDistance(cylinder.X_OC() * Eigen::Vector3d{0.06, 0.08, 1.0}), 0,
               1e-12);
   EXPECT_NEAR(cylinder.SignedDistance(cylinder.X_OC() * Eigen::Vector3d{0, 0, 0.93}), 0.02, 1e-12);
-}
-
-TEST(SolidCaster, GivesNoNormalWhereFacesMeet) {
-  const SolidCaster box(FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1}));
-  const auto normal = box.NormalAt(box.X_OC() * Eigen::Vector3d(0.05, 0.02, 0.95), 0.01);
-  ASSERT_TRUE(normal);
-  EXPECT_NEAR(normal->z(), 1, 1e-12);
-  EXPECT_FALSE(box.NormalAt(box.X_OC() * Eigen::Vector3d(0.095, 0.02, 0.95), 0.01));
 }
 
 TEST(CastRays, CountsWhatIsOnInFrontOfAndBehindTheSurface) {
@@ -118,16 +81,6 @@ TEST(CastRays, LeavesTheSupportPlaneToItself) {
   EXPECT_EQ(CastAt(solid, image, wall).explained.size(), 0u);
 }
 
-TEST(NormalLookup, GivesTheNormalOfAPlaneAndNothingAtAJump) {
-  DepthImage image = Wall(1000);
-  for (int v = 0; v < 48; ++v) {
-    for (int u = 40; u < 64; ++u) image.counts[static_cast<size_t>(v * 64 + u)] = 1500;
-  }
-  const NormalLookup normals(image);
-  EXPECT_NEAR(normals.At(20, 24).z(), -1, 1e-3);
-  EXPECT_TRUE(normals.At(39, 24).isZero());
-}
-
 TEST(CastRays, CountsATopFaceThatGoesOnBesideTheSolid) {
   const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
   EXPECT_GT(CastAt(solid, Wall(950), FarPlane()).num_overhanging, 20);
@@ -136,8 +89,12 @@ TEST(CastRays, CountsATopFaceThatGoesOnBesideTheSolid) {
 
 TEST(CastRays, CountsAboutTheSameAtEverySecondPixel) {
   const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
-  const RayEvidence all = CastAt(solid, Wall(950), FarPlane());
-  const RayEvidence some = CastAt(solid, Wall(950), FarPlane(), 2);
+  const DepthImage image = Wall(950);
+  const Plane support = FarPlane();
+  ObservedImage observed;
+  observed.Set(image, support);
+  const RayEvidence all = CastRays(solid, observed.every_pixel());
+  const RayEvidence some = CastRays(solid, observed.every_second_pixel());
   EXPECT_EQ(some.pixel_weight, 4);
   EXPECT_NEAR(some.num_explained(), all.num_explained(), 0.2 * all.num_explained());
   EXPECT_NEAR(some.Balance(), all.Balance(), 0.2 * all.Balance());

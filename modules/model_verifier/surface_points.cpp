@@ -9,12 +9,12 @@ std::vector<SurfacePoint> PointsNear(const Solid& solid, double margin_m,
                                      const Observation& observation) {
   const PinholeCamera& camera = observation.image.camera;
   const PixelWindow window = ProjectionWindow(solid, margin_m, camera);
-  const int step = observation.step;
+  const int step = observation.grid.step;
   const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
   const Eigen::Vector3d half = 0.5 * solid.size + Eigen::Vector3d::Constant(margin_m);
   std::vector<SurfacePoint> points;
-  for (int v = observation.First(window.v_begin); v < window.v_end; v += step) {
-    for (int u = observation.First(window.u_begin); u < window.u_end; u += step) {
+  for (int v = step * observation.First(window.v_begin); v < window.v_end; v += step) {
+    for (int u = step * observation.First(window.u_begin); u < window.u_end; u += step) {
       const double z = observation.image.DepthAt(u, v);
       if (z <= 0) continue;
       const Eigen::Vector3d ray_C = camera.Ray(u, v);
@@ -26,7 +26,7 @@ std::vector<SurfacePoint> PointsNear(const Solid& solid, double margin_m,
       point.ray_O = X_OC.linear() * (ray_C / ray_length);
       point.n_O = X_OC.linear() * observation.normals.At(u, v).cast<double>();
       point.sigma = MeasurementSigma(z) * ray_length;
-      point.num_px = observation.pixel_weight();
+      point.num_px = observation.grid.pixel_weight();
       point.pixel_area = point.num_px * z * z / (camera.fx * camera.fy) * ray_length;
     }
   }

@@ -62,9 +62,9 @@ Eigen::Matrix3d CovarianceOfSide(const Solid& solid, const RayEvidence& evidence
                                  const DepthImage& image) {
   const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
   Eigen::Matrix3d H = Eigen::Matrix3d::Identity() / Square(kMaxSd);
-  for (const RayEvidence::ExplainedPixel& pixel : evidence.explained) {
-    const int u = pixel.pixel % image.camera.width;
-    const int v = pixel.pixel / image.camera.width;
+  for (int32_t pixel : evidence.explained) {
+    const int u = pixel % image.camera.width;
+    const int v = pixel / image.camera.width;
     const Eigen::Vector3d p_O = X_OC * image.PointAt(u, v);
     const double distance = p_O.head<2>().norm();
     if (distance - solid.radius() < std::abs(p_O.z()) - 0.5 * solid.height()) continue;

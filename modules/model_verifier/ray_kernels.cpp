@@ -1,0 +1,370 @@
+#include "modules/model_verifier/ray_kernels.h"
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "modules/model_verifier/ray_kernels.cpp"
+#include <hwy/foreach_target.h>  // compiles the rest of this file once for each target
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace declutter {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, kRayPadding>;
+using Ints = hn::RebindToSigned<Floats>;
+using Vector = hn::Vec<Floats>;
+using Mask = hn::Mask<Floats>;
+
+struct Vector3 {
+  Vector x, y, z;
+};
+
+HWY_INLINE Vector Constant(float value) { return hn::Set(Floats(), value); }
+
+HWY_INLINE Vector Max0(const Vector& v) { return hn::Max(v, hn::Zero(Floats())); }
+
+HWY_INLINE Vector Dot(const float* a, const Vector3& b) {
+  return hn::Add(hn::Add(hn::Mul(Constant(a[0]), b.x), hn::Mul(Constant(a[1]), b.y)),
+                 hn::Mul(Constant(a[2]), b.z));
+}
+
+HWY_INLINE Vector3 Rotate(const float* R, const Vector3& v) {
+  return {Dot(R, v), Dot(R + 3, v), Dot(R + 6, v)};
+}
+
+// Where rays are inside a solid, as depths.
+struct Passage {
+  Vector z_in, z_out;
+  Mask through_top;  // enters through the face at the upper end of O's z axis
+
+  HWY_INLINE Mask is_hit() const {
+    return hn::And(hn::Lt(z_in, z_out), hn::Gt(z_in, hn::Zero(Floats())));
+  }
+};
+
+// Cuts a passage to the part between the two planes across an axis.
+HWY_INLINE void CutBySlab(float half, float camera, const Vector& ray, Passage* passage) {
+  // Almost parallel to the planes, the ray is between them for ever or never.
+  const auto tiny = Constant(1e-9f);
+  const auto d = hn::IfThenElse(hn::Lt(hn::Abs(ray), tiny), tiny, ray);
+  const auto inverse = hn::Div(Constant(1.0f), d);
+  const auto middle = hn::Mul(Constant(-camera), inverse);
+  const auto reach = hn::Abs(hn::Mul(Constant(half), inverse));
+  passage->z_in = hn::Max(passage->z_in, hn::Sub(middle, reach));
+  passage->z_out = hn::Min(passage->z_out, hn::Add(middle, reach));
+}
+
+template <bool kIsCylinder>
+HWY_INLINE Passage PassageOf(const RaySolid& solid, const Vector3& ray_O) {
+  const Floats f;
+  Passage passage{hn::Zero(f), Constant(std::numeric_limits<float>::max()), hn::FirstN(f, 0)};
+  CutBySlab(solid.half_size[2], solid.camera_O[2], ray_O.z, &passage);
+  if (!kIsCylinder) {
+    CutBySlab(solid.half_size[1], solid.camera_O[1], ray_O.y, &passage);
+    CutBySlab(solid.half_size[0], solid.camera_O[0], ray_O.x, &passage);
+    return passage;
+  }
+  const float* o = solid.camera_O;
+  const float r = solid.half_size[0];
+  const auto a =
+      hn::Max(hn::Add(hn::Mul(ray_O.x, ray_O.x), hn::Mul(ray_O.y, ray_O.y)), Constant(1e-12f));
+  const auto b = hn::Add(hn::Mul(Constant(o[0]), ray_O.x), hn::Mul(Constant(o[1]), ray_O.y));
+  const auto c = Constant(o[0] * o[0] + o[1] * o[1] - r * r);
+  const auto discriminant = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
+  const auto root = hn::Sqrt(Max0(discriminant));
+  const auto inverse = hn::Div(Constant(1.0f), a);
+  const auto side_in = hn::Mul(hn::Neg(hn::Add(b, root)), inverse);
+  const auto side_out = hn::Mul(hn::Sub(root, b), inverse);
+  passage.through_top = hn::And(hn::Ge(passage.z_in, side_in), hn::Lt(ray_O.z, hn::Zero(f)));
+  passage.z_in = hn::Max(passage.z_in, side_in);
+  passage.z_out =
+      hn::IfThenElseZero(hn::Gt(discriminant, hn::Zero(f)), hn::Min(passage.z_out, side_out));
+  return passage;
+}
+
+// Signed distances of points to the faces across each axis; those of a cylinder to its side and its
+// ends are x and z.
+struct FaceDistances {
+  Vector x, y, z;
+  Vector radial;  // [m] from the axis of a cylinder
+};
+
+template <bool kIsCylinder>
+HWY_INLINE FaceDistances DistancesToFaces(const RaySolid& solid, const Vector3& p) {
+  const auto to_face = [&](const Vector& q, int axis) {
+    return hn::Sub(hn::Abs(q), Constant(solid.half_size[axis]));
+  };
+  if (kIsCylinder) {
+    const auto radial = hn::Sqrt(hn::Add(hn::Mul(p.x, p.x), hn::Mul(p.y, p.y)));
+    const auto side = hn::Sub(radial, Constant(solid.half_size[0]));
+    return {side, side, to_face(p.z, 2), radial};
+  }
+  return {to_face(p.x, 0), to_face(p.y, 1), to_face(p.z, 2), p.x};
+}
+
+// [m] to the surface, negative inside.
+template <bool kIsCylinder>
+HWY_INLINE Vector SignedDistance(const FaceDistances& q) {
+  const auto x = Max0(q.x), y = Max0(q.y), z = Max0(q.z);
+  auto square = hn::Add(hn::Mul(x, x), hn::Mul(z, z));
+  auto largest = hn::Max(q.x, q.z);
+  if (!kIsCylinder) {
+    square = hn::Add(square, hn::Mul(y, y));
+    largest = hn::Max(largest, q.y);
+  }
+  return hn::Add(hn::Sqrt(square), hn::Min(largest, hn::Zero(Floats())));
+}
+
+// Cosine of a normal in O and that of the face nearest to a point; `is_certain` where the point is
+// not near an edge.
+struct NormalMatch {
+  Vector cosine;
+  Mask is_certain;
+};
+
+template <bool kIsCylinder>
+HWY_INLINE NormalMatch MatchNormal(const FaceDistances& q, const Vector3& p, const Vector3& n,
+                                   float edge_margin) {
+  const auto inside = Constant(-edge_margin);
+  const auto on_end = hn::CopySign(Constant(1.0f), p.z);
+  if (kIsCylinder) {
+    const auto radial = hn::Max(q.radial, Constant(1e-9f));
+    const auto side = hn::Div(hn::Add(hn::Mul(p.x, n.x), hn::Mul(p.y, n.y)), radial);
+    const auto end = hn::Mul(on_end, n.z);
+    return {hn::IfThenElse(hn::Gt(q.x, q.z), side, end), hn::Le(hn::Min(q.x, q.z), inside)};
+  }
+  const auto is_x = hn::And(hn::Ge(q.x, q.y), hn::Ge(q.x, q.z));
+  const auto is_y = hn::AndNot(is_x, hn::Ge(q.y, q.z));
+  const auto x = hn::Mul(hn::CopySign(Constant(1.0f), p.x), n.x);
+  const auto y = hn::Mul(hn::CopySign(Constant(1.0f), p.y), n.y);
+  const auto z = hn::Mul(on_end, n.z);
+  const auto second = hn::IfThenElse(is_x, hn::Max(q.y, q.z),
+                                     hn::IfThenElse(is_y, hn::Max(q.x, q.z), hn::Max(q.x, q.y)));
+  return {hn::IfThenElse(is_x, x, hn::IfThenElse(is_y, y, z)), hn::Le(second, inside)};
+}
+
+// Some pixels of a row.
+struct Pixels {
+  Vector3 ray_C;
+  Vector z;
+  Mask is_seen;      // in the window
+  Mask is_measured;  // and with depth
+};
+
+HWY_INLINE Pixels PixelsAt(const RayWindow& window, int u, int v) {
+  const Floats f;
+  Pixels pixels;
+  pixels.ray_C = {hn::LoadU(f, window.ray_x + u), Constant(window.ray_y[v]), Constant(1.0f)};
+  pixels.is_seen = hn::FirstN(f, HWY_MIN(static_cast<size_t>(window.u_end - u), hn::Lanes(f)));
+  pixels.z = hn::IfThenElseZero(
+      pixels.is_seen, hn::LoadU(f, window.z + static_cast<size_t>(v) * window.stride + u));
+  pixels.is_measured = hn::Gt(pixels.z, hn::Zero(f));
+  return pixels;
+}
+
+HWY_INLINE Vector3 NormalsAt(const RayWindow& window, int u, int v) {
+  const Floats f;
+  const Ints i32;
+  const size_t row = static_cast<size_t>(v >> window.normal_shift) * window.normal_stride;
+  if (window.normal_shift == 0) {
+    const size_t i = row + static_cast<size_t>(u);
+    return {hn::LoadU(f, window.normal_x + i), hn::LoadU(f, window.normal_y + i),
+            hn::LoadU(f, window.normal_z + i)};
+  }
+  const auto i = hn::ShiftRightSame(hn::Iota(i32, u), window.normal_shift);
+  return {hn::GatherIndex(f, window.normal_x + row, i),
+          hn::GatherIndex(f, window.normal_y + row, i),
+          hn::GatherIndex(f, window.normal_z + row, i)};
+}
+
+HWY_INLINE Vector Tolerance(const RayLimits& limits, const Vector& z) {
+  return hn::Max(Constant(limits.min_tolerance_m),
+                 hn::Mul(Constant(limits.tolerance_per_square), hn::Mul(z, z)));
+}
+
+HWY_INLINE Vector LeastHeight(const RayLimits& limits, const Vector& z) {
+  return hn::Mul(Constant(limits.min_height_in_tolerances), Tolerance(limits, z));
+}
+
+HWY_INLINE Vector HeightAbove(const float* support, const Pixels& pixels) {
+  return hn::Add(Constant(support[3]), hn::Mul(pixels.z, Dot(support, pixels.ray_C)));
+}
+
+HWY_INLINE Vector3 PointInO(const RaySolid& solid, const Vector3& ray_O, const Vector& z) {
+  const float* o = solid.camera_O;
+  return {hn::Add(Constant(o[0]), hn::Mul(z, ray_O.x)),
+          hn::Add(Constant(o[1]), hn::Mul(z, ray_O.y)),
+          hn::Add(Constant(o[2]), hn::Mul(z, ray_O.z))};
+}
+
+HWY_INLINE int Count(const Mask& mask) { return static_cast<int>(hn::CountTrue(Floats(), mask)); }
+
+HWY_INLINE Mask IsKnown(const Vector3& n) {
+  return hn::Or(hn::Ne(n.x, hn::Zero(Floats())),
+                hn::Or(hn::Ne(n.y, hn::Zero(Floats())), hn::Ne(n.z, hn::Zero(Floats()))));
+}
+
+// Points beside the solid that lie in the plane of its top face. The side of something that stands
+// in front is no part of it.
+template <bool kIsCylinder>
+HWY_INLINE int CountOverhanging(const RaySolid& solid, const RayWindow& window,
+                                const RayLimits& limits, const Pixels& pixels,
+                                const Mask& is_beside, const Vector3& p, const FaceDistances& q,
+                                const Vector& tolerance, int u, int v) {
+  const Floats f;
+  const auto from_top = hn::Abs(hn::Sub(p.z, Constant(solid.half_size[2])));
+  const auto overhang = kIsCylinder ? q.x : hn::Max(q.x, q.y);
+  auto is_overhanging = hn::And(
+      hn::And(is_beside, hn::Le(from_top, Constant(limits.top_tolerance_m))),
+      hn::And(hn::Ge(overhang, hn::Zero(f)), hn::Le(overhang, Constant(limits.max_overhang_m))));
+  if (hn::AllFalse(f, is_overhanging)) return 0;
+  is_overhanging = hn::And(is_overhanging, hn::Ge(HeightAbove(solid.support, pixels), tolerance));
+  const Vector3 n_C = NormalsAt(window, u, v);
+  const auto is_top = hn::Gt(Dot(solid.R_OC + 6, n_C), Constant(limits.min_normal_cos));
+  return Count(hn::And(is_overhanging, hn::Or(is_top, hn::Not(IsKnown(n_C)))));
+}
+
+// Appends the pixels on the surface whose normals do not contradict it.
+template <bool kIsCylinder>
+HWY_INLINE void Explain(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
+                        const Mask& is_on, const Vector3& p, const FaceDistances& q,
+                        const Vector& relative, int u, int v, RayCounts* counts) {
+  const Floats f;
+  const Ints i32;
+  const auto one = Constant(1.0f);
+  const Vector3 n_C = NormalsAt(window, u, v);
+  const NormalMatch match =
+      MatchNormal<kIsCylinder>(q, p, Rotate(solid.R_OC, n_C), limits.edge_margin_m);
+  const auto fit_of_normal = hn::Mul(hn::Sub(match.cosine, Constant(limits.min_normal_cos)),
+                                     Constant(1 / (1 - limits.min_normal_cos)));
+  const auto normal_fit =
+      hn::IfThenElse(hn::And(match.is_certain, IsKnown(n_C)), fit_of_normal, one);
+  const auto is_contradicting = hn::And(is_on, hn::Lt(normal_fit, hn::Zero(f)));
+  counts->num_contradicting += Count(is_contradicting);
+  const auto is_explained = hn::AndNot(is_contradicting, is_on);
+  const auto fit = hn::IfThenElseZero(
+      is_explained, hn::Mul(hn::Min(normal_fit, one), hn::Sub(one, hn::Mul(relative, relative))));
+  const auto fixed = hn::NearestInt(hn::Mul(fit, Constant(static_cast<float>(kFitUnit))));
+  counts->fit += hn::GetLane(hn::SumOfLanes(i32, fixed));
+  const auto is_stored = hn::RebindMask(i32, is_explained);
+  const auto index = hn::Iota(i32, v * window.columns + u);
+  hn::CompressStore(index, is_stored, i32, counts->explained + counts->num_explained);
+  hn::CompressStore(fixed, is_stored, i32, counts->fits + counts->num_explained);
+  counts->num_explained += Count(is_explained);
+}
+
+template <bool kIsCylinder>
+HWY_INLINE void CastPixels(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
+                           int u, int v, RayCounts* counts) {
+  const Floats f;
+  const Ints i32;
+  const Pixels pixels = PixelsAt(window, u, v);
+  const Vector3 ray_O = Rotate(solid.R_OC, pixels.ray_C);
+  const Passage passage = PassageOf<kIsCylinder>(solid, ray_O);
+  const auto is_hit = hn::And(pixels.is_seen, passage.is_hit());
+  const Vector& z = pixels.z;
+  const Vector3 p = PointInO(solid, ray_O, z);
+  const FaceDistances q = DistancesToFaces<kIsCylinder>(solid, p);
+  const auto tolerance = Tolerance(limits, z);
+  counts->num_overhanging += CountOverhanging<kIsCylinder>(
+      solid, window, limits, pixels, hn::AndNot(is_hit, pixels.is_measured), p, q, tolerance, u, v);
+  if (hn::AllFalse(f, is_hit)) return;
+
+  counts->num_unknown += Count(hn::AndNot(pixels.is_measured, is_hit));
+  const auto is_measured = hn::And(is_hit, pixels.is_measured);
+  const auto distance = SignedDistance<kIsCylinder>(q);
+  const auto is_on = hn::And(hn::And(is_measured, hn::Lt(hn::Abs(distance), tolerance)),
+                             hn::Ge(HeightAbove(solid.support, pixels), LeastHeight(limits, z)));
+  if (!hn::AllFalse(f, is_on)) {
+    Explain<kIsCylinder>(solid, window, limits, is_on, p, q, hn::Div(distance, tolerance), u, v,
+                         counts);
+  }
+  auto is_other = hn::AndNot(is_on, is_measured);
+  const auto is_in_front = hn::Lt(z, passage.z_in);
+  counts->num_occluded += Count(hn::And(is_other, is_in_front));
+  is_other = hn::AndNot(is_in_front, is_other);
+  if (kIsCylinder) {
+    const auto is_hollow =
+        hn::And(hn::And(is_other, passage.through_top), hn::Lt(distance, hn::Zero(f)));
+    hn::CompressStore(hn::Iota(i32, v * window.columns + u), hn::RebindMask(i32, is_hollow), i32,
+                      counts->hollow + counts->num_hollow);
+    counts->num_hollow += Count(is_hollow);
+    is_other = hn::AndNot(is_hollow, is_other);
+  }
+  const auto length = hn::Sub(hn::Min(z, passage.z_out), passage.z_in);
+  counts->num_violating += Count(hn::And(is_other, hn::Gt(length, tolerance)));
+}
+
+template <bool kIsCylinder>
+HWY_INLINE void CastAll(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
+                        RayCounts* counts) {
+  const int lanes = static_cast<int>(hn::Lanes(Floats()));
+  for (int v = window.v_begin; v < window.v_end; ++v) {
+    for (int u = window.u_begin; u < window.u_end; u += lanes) {
+      CastPixels<kIsCylinder>(solid, window, limits, u, v, counts);
+    }
+  }
+}
+
+void CastWindow(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
+                RayCounts* counts) {
+  if (solid.is_cylinder) {
+    CastAll<true>(solid, window, limits, counts);
+  } else {
+    CastAll<false>(solid, window, limits, counts);
+  }
+}
+
+template <bool kIsCylinder>
+HWY_INLINE int CountAllNear(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
+                            float reach) {
+  const Floats f;
+  int num = 0;
+  for (int v = window.v_begin; v < window.v_end; ++v) {
+    for (int u = window.u_begin; u < window.u_end; u += static_cast<int>(hn::Lanes(f))) {
+      const Pixels pixels = PixelsAt(window, u, v);
+      const auto is_high = hn::And(pixels.is_measured, hn::Gt(HeightAbove(solid.support, pixels),
+                                                              LeastHeight(limits, pixels.z)));
+      if (hn::AllFalse(f, is_high)) continue;
+      const Vector3 p = PointInO(solid, Rotate(solid.R_OC, pixels.ray_C), pixels.z);
+      const auto distance = SignedDistance<kIsCylinder>(DistancesToFaces<kIsCylinder>(solid, p));
+      num += Count(hn::And(is_high, hn::Lt(distance, Constant(reach))));
+    }
+  }
+  return num;
+}
+
+int CountNear(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
+              float reach_m) {
+  return solid.is_cylinder ? CountAllNear<true>(solid, window, limits, reach_m)
+                           : CountAllNear<false>(solid, window, limits, reach_m);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace declutter
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace declutter {
+namespace {
+
+HWY_EXPORT(CastWindow);
+HWY_EXPORT(CountNear);
+
+}  // namespace
+
+void CastWindow(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
+                RayCounts* counts) {
+  HWY_DYNAMIC_DISPATCH(CastWindow)(solid, window, limits, counts);
+}
+
+int CountNear(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
+              float reach_m) {
+  return HWY_DYNAMIC_DISPATCH(CountNear)(solid, window, limits, reach_m);
+}
+
+}  // namespace declutter
+#endif
