@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "modules/model_verifier/surface_fit.h"
 
@@ -14,9 +12,20 @@ namespace {
 constexpr double kMaxGrowth = 0.025;     // [m] that an edge moves outward at most
 constexpr double kMaxShrinkage = 0.015;  // [m] that an edge moves inward at most
 constexpr double kReference = 0.030;     // [m] of a face before its edge that give its full width
+constexpr double kMinReference = 0.008;  // [m] of them at least
+
+// A face of a box: the side `sign` of an axis of O.
+struct BoxFace {
+  int axis;
+  int sign;
+};
 
 // All that can be seen: never the lower end.
 constexpr BoxFace kFaces[] = {{0, 1}, {0, -1}, {1, 1}, {1, -1}, {2, 1}};
+
+bool IsOn(const SurfacePoint& point, const BoxFace& face) {
+  return (point.surfaces & SurfaceBit(face.axis, face.sign)) != 0;
+}
 
 // Inside the face, `margin` away from its edges.
 bool IsWithin(const SurfacePoint& point, int except_axis, const Eigen::Vector3d& half,
@@ -30,9 +39,13 @@ bool IsWithin(const SurfacePoint& point, int except_axis, const Eigen::Vector3d&
 // Offsets of the faces that are seen, and the yaw about z of O, by linear least squares.
 class BoxFit {
  public:
-  BoxFit(const std::vector<SurfacePoint>& points, const Eigen::Vector3d& half) {
-    for (const BoxFace& face : kFaces) {
-      Accumulate(points, face, half);
+  BoxFit(const SurfacePoints& points, const Eigen::Vector3d& half) {
+    for (const SurfacePoint& point : points) {
+      for (const BoxFace& face : kFaces) {
+        if (IsOn(point, face) && IsWithin(point, face.axis, half, kFitEdgeMargin)) {
+          Accumulate(point, face, points.pixel_weight());
+        }
+      }
     }
     Solve();
   }
@@ -46,22 +59,18 @@ class BoxFit {
     return static_cast<size_t>(2 * face.axis + (face.sign > 0));
   }
 
-  void Accumulate(const std::vector<SurfacePoint>& points, const BoxFace& face,
-                  const Eigen::Vector3d& half) {
+  void Accumulate(const SurfacePoint& point, const BoxFace& face, int num_px) {
     Sums& sums = sums_[Index(face)];
-    for (const SurfacePoint& point : points) {
-      if (!IsOn(point, face, half) || !IsWithin(point, face.axis, half, kFitEdgeMargin)) continue;
-      const double w = Weight(point, point.ray_O[face.axis]);
-      // A yaw of the box by delta takes the plane x = o to x + delta * y = o.
-      const double lever = face.axis == 0 ? point.p_O.y() : face.axis == 1 ? -point.p_O.x() : 0;
-      const double x = point.p_O[face.axis];
-      sums.num += point.num_px;
-      sums.w += w;
-      sums.x += w * x;
-      sums.l += w * lever;
-      sums.ll += w * lever * lever;
-      sums.lx += w * lever * x;
-    }
+    const double w = Weight(point, point.ray_O[face.axis]);
+    // A yaw of the box by delta takes the plane x = o to x + delta * y = o.
+    const double lever = face.axis == 0 ? point.p_O[1] : face.axis == 1 ? -point.p_O[0] : 0;
+    const double x = point.p_O[face.axis];
+    sums.num += num_px;
+    sums.w += w;
+    sums.x += w * x;
+    sums.l += w * lever;
+    sums.ll += w * lever * lever;
+    sums.lx += w * lever * x;
   }
 
   // Each offset minimises its own sum: o = mean(x) + yaw * mean(l), which leaves yaw alone.
@@ -89,52 +98,64 @@ class BoxFit {
   std::optional<double> offsets_[6];
 };
 
-// Where a surface ends along a coordinate: its area beyond a reference strip, divided by the width
-// that the strip has. Samples are (outward coordinate, area).
-std::optional<double> AreaEnd(const std::vector<std::pair<double, double>>& samples, int num_px,
-                              double edge, double inner_limit) {
-  const double begin = edge - kMaxShrinkage;
-  const double reference = std::min(kReference, begin - inner_limit);
-  if (reference < 0.008) return std::nullopt;
-  double reference_area = 0;
-  double beyond_area = 0;
-  int num = 0;
-  for (const auto& [x, area] : samples) {
-    if (x > begin - reference && x <= begin) {
-      reference_area += area;
-      num += num_px;
-    } else if (x > begin && x < edge + kMaxGrowth) {
-      beyond_area += area;
+// Where a face ends beyond a hidden end of a box: its area beyond a reference strip, divided by the
+// width that the strip has. Coordinates are outward.
+class AreaEnd {
+ public:
+  // edge: where the box ends now, inner_limit: where it begins.
+  AreaEnd(double edge, double inner_limit)
+      : edge_(edge),
+        begin_(edge - kMaxShrinkage),
+        reference_(std::min(kReference, begin_ - inner_limit)) {}
+
+  void Add(double x, double area, int num_px) {
+    ++num_points_;
+    if (x > begin_ - reference_ && x <= begin_) {
+      reference_area_ += area;
+      num_reference_px_ += num_px;
+    } else if (x > begin_ && x < edge_ + kMaxGrowth) {
+      beyond_area_ += area;
     }
   }
-  if (num < kMinFitPoints / 2) return std::nullopt;
-  return std::min(begin + beyond_area / (reference_area / reference), edge + kMaxGrowth);
-}
+
+  int num_points() const { return num_points_; }
+
+  // Nothing when there is too little of the face.
+  std::optional<double> End() const {
+    if (reference_ < kMinReference || num_reference_px_ < kMinFitPoints / 2) return std::nullopt;
+    return std::min(begin_ + beyond_area_ / (reference_area_ / reference_), edge_ + kMaxGrowth);
+  }
+
+ private:
+  double edge_, begin_, reference_;
+  double reference_area_ = 0, beyond_area_ = 0;
+  int num_points_ = 0, num_reference_px_ = 0;
+};
 
 // The end of a box along one axis where its face is not seen: from the adjacent face with the most
-// points near it.
-std::optional<double> HiddenEnd(const std::vector<SurfacePoint>& points, const BoxFace& hidden,
+// points.
+std::optional<double> HiddenEnd(const SurfacePoints& points, const BoxFace& hidden,
                                 const Eigen::Vector3d& half) {
-  std::vector<std::pair<double, double>> best;
+  std::optional<AreaEnd> best;
   for (const BoxFace& face : kFaces) {
     if (face.axis == hidden.axis) continue;
     const int across = 3 - face.axis - hidden.axis;
-    std::vector<std::pair<double, double>> samples;
+    AreaEnd end(half[hidden.axis], -half[hidden.axis]);
     for (const SurfacePoint& point : points) {
-      if (!IsOn(point, face, half) || std::abs(point.p_O[across]) > half[across]) continue;
-      samples.emplace_back(hidden.sign * point.p_O[hidden.axis],
-                           point.pixel_area / std::abs(point.ray_O[face.axis]));
+      if (!IsOn(point, face) || std::abs(point.p_O[across]) > half[across]) continue;
+      end.Add(static_cast<float>(hidden.sign) * point.p_O[hidden.axis],
+              point.pixel_area / std::abs(point.ray_O[face.axis]), points.pixel_weight());
     }
-    if (samples.size() > best.size()) best = std::move(samples);
+    if (!best || end.num_points() > best->num_points()) best = end;
   }
-  return AreaEnd(best, points.empty() ? 1 : points[0].num_px, half[hidden.axis],
-                 -half[hidden.axis]);
+  return best->End();
 }
 
 }  // namespace
 
-Solid RefineBox(Solid solid, const Observation& observation) {
-  const std::vector<SurfacePoint> points = PointsNear(solid, kFitMargin, observation);
+Solid RefineBox(Solid solid, const Observation& observation, SurfacePoints* buffer) {
+  buffer->Find(solid, observation);
+  const SurfacePoints& points = *buffer;
   const Eigen::Vector3d half = 0.5 * solid.size;
   const BoxFit fit(points, half);
   Eigen::Vector3d low = -half;

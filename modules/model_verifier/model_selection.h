@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "modules/geometry/solid.h"
 #include "modules/model_verifier/model_verifier.pb.h"
 #include "modules/model_verifier/ray_casting.h"
+#include "modules/model_verifier/surface_fit.h"
 
 namespace declutter {
 
@@ -15,15 +18,52 @@ struct Candidate {
   bool is_refined = false;
   bool is_out = false;  // does not take part
   bool is_selected = false;
+  bool is_gain_known = false;
   int num_blockers = 0;  // selected candidates in its space
   double gain = 0;       // [px] explained by it alone, less what speaks against it
 };
 
 // The set of solids that explains the image best: takes the hypothesis that explains the most
 // pixels nobody else explains, again and again, until none explains enough; then exchanges those
-// whose place another fills better. Solids do not share space.
-std::vector<Candidate> SelectModels(const ModelVerifierConfig& config,
-                                    const std::vector<Hypothesis>& hypotheses,
-                                    const Observation& observation);
+// whose place another fills better. Solids do not share space. Buffers are used again for the next
+// frame.
+class ModelSelection {
+ public:
+  explicit ModelSelection(const ModelVerifierConfig& config) : config_(config) {}
+
+  void Run(const std::vector<Hypothesis>& hypotheses, const Observation& observation,
+           FitBuffers* buffers);
+
+  // The candidates selected by the last run, in the order of their selection.
+  const std::vector<size_t>& selected() const { return selected_; }
+  Candidate& candidate(size_t index) { return candidates_[index]; }
+
+ private:
+  // What one run works on.
+  struct Input {
+    const Observation& observation;
+    FitBuffers* buffers;
+  };
+
+  void AddCandidates(const std::vector<Hypothesis>& hypotheses, const Input& input);
+  bool Exchange(const Input& input);
+  std::optional<size_t> Best(const Input& input);
+  bool RefineRivals(const Candidate& best, const Input& input);
+  bool IsPlausible(const RayEvidence& evidence) const;
+  bool IsFree(const Candidate& candidate) const;
+  bool AreRivals(size_t a, size_t b);
+  void ForgetRivals(size_t index);
+  double Gain(const Candidate& candidate) const;
+  void Select(size_t index);
+  void Release(size_t index);
+  void Mark(size_t index, int change);
+
+  ModelVerifierConfig config_;
+  std::vector<uint8_t> num_explaining_;  // selected solids on each pixel of the grid
+  std::vector<Candidate> candidates_;    // the first num_candidates_ are of this frame
+  size_t num_candidates_ = 0;
+  std::vector<int8_t> are_rivals_;  // of each pair of candidates: 1, 0 or kUnknown
+  std::vector<size_t> selected_;
+};
 
 }  // namespace declutter

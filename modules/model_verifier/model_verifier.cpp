@@ -4,7 +4,6 @@
 
 #include "modules/model_verifier/confidence.h"
 #include "modules/model_verifier/end_evidence.h"
-#include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/support_settling.h"
 #include "modules/model_verifier/uncertainty.h"
@@ -13,10 +12,13 @@ namespace declutter {
 namespace {
 
 // Fills the empty label image: each pixel belongs to the object whose surface it fits best; what is
-// seen inside an open cylinder belongs to it when nothing else explains it.
-void Label(const std::vector<RayEvidence>& evidence, ObjectList* list) {
-  std::vector<int32_t> best(list->labels.size(), 0);  // in kFitUnit
-  for (size_t i = 0; i < evidence.size(); ++i) {
+// seen inside an open cylinder belongs to it when nothing else explains it. The evidence of each
+// object comes first. best_fits is a buffer.
+void Label(const std::vector<RayEvidence>& evidence, std::vector<int32_t>* best_fits,
+           ObjectList* list) {
+  std::vector<int32_t>& best = *best_fits;  // in kFitUnit
+  best.assign(list->labels.size(), 0);
+  for (size_t i = 0; i < list->objects.size(); ++i) {
     for (size_t k = 0; k < evidence[i].explained.size(); ++k) {
       const auto pixel = static_cast<size_t>(evidence[i].explained[k]);
       if (evidence[i].fits[k] <= best[pixel]) continue;
@@ -24,7 +26,7 @@ void Label(const std::vector<RayEvidence>& evidence, ObjectList* list) {
       list->labels[pixel] = static_cast<uint8_t>(i + 1);
     }
   }
-  for (size_t i = 0; i < evidence.size(); ++i) {
+  for (size_t i = 0; i < list->objects.size(); ++i) {
     for (int32_t pixel : evidence[i].hollow) {
       uint8_t& label = list->labels[static_cast<size_t>(pixel)];
       if (label == 0) label = static_cast<uint8_t>(i + 1);
@@ -32,14 +34,13 @@ void Label(const std::vector<RayEvidence>& evidence, ObjectList* list) {
   }
 }
 
-// The grid of all pixels without those of objects.
-PixelGrid WithoutLabelled(PixelGrid grid, const std::vector<uint8_t>& labels) {
-  for (int v = 0; v < grid.rows; ++v) {
-    float* z = &grid.z[static_cast<size_t>(v) * grid.stride];
-    const uint8_t* label = &labels[static_cast<size_t>(v) * static_cast<size_t>(grid.columns)];
-    for (int u = 0; u < grid.columns; ++u) z[u] = label[u] == 0 ? z[u] : 0;
+// Takes the pixels of objects out of a grid of all pixels.
+void RemoveLabelled(const std::vector<uint8_t>& labels, PixelGrid* grid) {
+  for (int v = 0; v < grid->rows; ++v) {
+    float* z = &grid->z[static_cast<size_t>(v) * grid->stride];
+    const uint8_t* label = &labels[static_cast<size_t>(v) * static_cast<size_t>(grid->columns)];
+    for (int u = 0; u < grid->columns; ++u) z[u] = label[u] == 0 ? z[u] : 0;
   }
-  return grid;
 }
 
 // Renumbers what is left after objects below the least confidence are gone.
@@ -61,9 +62,10 @@ void DropUncertain(double min_confidence, ObjectList* list) {
 
 }  // namespace
 
-ModelVerifier::ModelVerifier(const ModelVerifierConfig& config) : config_(config) {}
+ModelVerifier::ModelVerifier(const ModelVerifierConfig& config)
+    : config_(config), selection_(config) {}
 
-ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& hypotheses) const {
+ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& hypotheses) {
   ObjectList list;
   list.header = frame.header;
   list.mode = hypotheses.mode;
@@ -71,46 +73,59 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   list.X_WC = frame.X_WC;
   list.planes = hypotheses.planes;
   list.labels.assign(static_cast<size_t>(list.camera.num_pixels()), 0);
-  if (list.planes.empty() || frame.image.empty()) return list;
+  if (list.planes.empty() || frame.image.empty() || hypotheses.hypotheses.empty()) return list;
 
-  const Plane& support = list.planes[0];
-  ObservedImage observed;
-  observed.Set(frame.image, support);
+  observed_.Set(frame.image, list.planes[0]);
   // Models are selected by every second pixel; what is selected is measured with all.
-  const Observation observation = observed.every_pixel();
-  const Observation coarse = observed.every_second_pixel();
-  for (Candidate& candidate : SelectModels(config_, hypotheses.hypotheses, coarse)) {
-    ObjectModel object;
+  Select(hypotheses.hypotheses, observed_.every_second_pixel(), &list.objects);
+  SettleOnSupports(observed_.every_second_pixel(), &list.objects);
+  Measure(&list);
+  DropUncertain(config_.min_confidence(), &list);
+  return list;
+}
+
+void ModelVerifier::Select(const std::vector<Hypothesis>& hypotheses,
+                           const Observation& observation, std::vector<ObjectModel>* objects) {
+  selection_.Run(hypotheses, observation, &buffers_);
+  for (const size_t i : selection_.selected()) {
+    Candidate& candidate = selection_.candidate(i);
+    ObjectModel& object = objects->emplace_back();
     object.solid = candidate.hypothesis.solid;
     if (config_.refine()) {
-      RefineIfNoWorse(observation, coarse, &object.solid, &candidate.evidence);
+      RefineIfNoWorse(observed_.every_pixel(), observation, &object.solid, &candidate.evidence,
+                      &buffers_);
     }
     object.evidence = candidate.hypothesis.evidence;
     object.num_votes = candidate.hypothesis.num_votes;
-    list.objects.push_back(object);
   }
-  SettleOnSupports(coarse, &list.objects);
-  std::vector<RayEvidence> evidence;
-  for (ObjectModel& object : list.objects) {
-    evidence.push_back(CastRays(object.solid, observation));
-    object.num_explained = evidence.back().num_explained();
-    object.num_occluded = evidence.back().num_occluded;
-    object.num_violating = evidence.back().num_violating;
-    object.id = static_cast<int32_t>(evidence.size());
+}
+
+void ModelVerifier::Measure(ObjectList* list) {
+  const Observation observation = observed_.every_pixel();
+  const size_t num = list->objects.size();
+  if (evidence_.size() < num) evidence_.resize(num);
+  for (size_t i = 0; i < num; ++i) {
+    ObjectModel& object = list->objects[i];
+    CastRays(object.solid, observation, &evidence_[i]);
+    object.num_explained = evidence_[i].num_explained();
+    object.num_occluded = evidence_[i].num_occluded;
+    object.num_violating = evidence_[i].num_violating;
+    object.id = static_cast<int32_t>(i + 1);
   }
-  Label(evidence, &list);
-  const PixelGrid unlabelled_grid = WithoutLabelled(observation.grid, list.labels);
-  const Observation unlabelled{frame.image, unlabelled_grid, observation.normals, support};
-  for (size_t i = 0; i < list.objects.size(); ++i) {
-    ObjectModel& object = list.objects[i];
+  Label(evidence_, &best_fits_, list);
+  unlabelled_ = observation.grid;
+  RemoveLabelled(list->labels, &unlabelled_);
+  const Observation unlabelled{observation.image, unlabelled_, observation.normals,
+                               observation.support};
+  for (size_t i = 0; i < num; ++i) {
+    ObjectModel& object = list->objects[i];
     object.confidence = static_cast<float>(
-        Confidence(object, evidence[i], NumUnexplained(object.solid, unlabelled)));
-    const SolidEnds ends = EndsOf(object.solid, object.evidence, evidence[i], coarse);
+        Confidence(object, evidence_[i], NumUnexplained(object.solid, unlabelled)));
+    const SolidEnds ends =
+        EndsOf(object.solid, object.evidence, evidence_[i], observed_.every_second_pixel());
     object.evidence = ExtentEvidence(ends);
-    object.covariance = CovarianceOf(object.solid, ends, evidence[i], observation);
+    object.covariance = CovarianceOf(object.solid, ends, evidence_[i], observation);
   }
-  DropUncertain(config_.min_confidence(), &list);
-  return list;
 }
 
 }  // namespace declutter

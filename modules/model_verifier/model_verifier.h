@@ -1,8 +1,12 @@
 #pragma once
 
+#include <vector>
+
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/solid.h"
+#include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/model_verifier.pb.h"
+#include "modules/model_verifier/observation.h"
 
 namespace declutter {
 
@@ -13,10 +17,23 @@ class ModelVerifier {
   explicit ModelVerifier(const ModelVerifierConfig& config);
 
   // Objects in C with their visible pixels. Frame and hypotheses must be of the same utime.
-  ObjectList Verify(const DepthFrame& frame, const HypothesisList& hypotheses) const;
+  ObjectList Verify(const DepthFrame& frame, const HypothesisList& hypotheses);
 
  private:
+  // The hypotheses that explain the image best, fitted to all pixels.
+  void Select(const std::vector<Hypothesis>& hypotheses, const Observation& observation,
+              std::vector<ObjectModel>* objects);
+  // Labels pixels, and measures how certain each object is.
+  void Measure(ObjectList* list);
+
   ModelVerifierConfig config_;
+  ModelSelection selection_;
+  // Room that the next frame uses again.
+  ObservedImage observed_;
+  FitBuffers buffers_;
+  std::vector<RayEvidence> evidence_;
+  std::vector<int32_t> best_fits_;
+  PixelGrid unlabelled_;
 };
 
 }  // namespace declutter

@@ -46,7 +46,8 @@ ObjectList Verify(const RenderedScene& scene, const std::vector<Hypothesis>& hyp
 Solid RefineOn(const RenderedScene& scene, const Solid& solid) {
   ObservedImage observed;
   observed.Set(scene.depth, scene.table);
-  return Refine(solid, observed.every_pixel());
+  SurfacePoints buffer;
+  return Refine(solid, observed.every_pixel(), &buffer);
 }
 
 constexpr char kBox[] =
@@ -219,7 +220,8 @@ TEST(RefineIfNoWorse, KeepsASolidThatAFitWouldLeadAstray) {
   Solid solid = truth;
   RayEvidence evidence = CastRays(solid, observation);
   const double before = evidence.Balance();
-  RefineIfNoWorse(observation, observation, &solid, &evidence);
+  FitBuffers buffers;
+  RefineIfNoWorse(observation, observation, &solid, &evidence, &buffers);
   EXPECT_GE(evidence.Balance(), before - 0.02 * evidence.num_explained());
   EXPECT_EQ(evidence.Balance(), CastRays(solid, observation).Balance());
   EXPECT_NEAR(solid.radius(), truth.radius(), 0.006);
@@ -235,7 +237,8 @@ TEST(RefineIfNoWorse, FindsACylinderByItsTopWhereItsSideIsHidden) {
   const Solid truth = scene.objects[0].solid;
   Solid solid = Changed(truth, {0.003, -0.002, 0}, {0.008, 0.008, 0});
   RayEvidence evidence = CastRays(solid, observation);
-  RefineIfNoWorse(observation, observation, &solid, &evidence);
+  FitBuffers buffers;
+  RefineIfNoWorse(observation, observation, &solid, &evidence, &buffers);
   EXPECT_NEAR(solid.radius(), truth.radius(), 0.002);
   EXPECT_LT((solid.X_CO.translation() - truth.X_CO.translation()).norm(), 0.003);
 }

@@ -6,7 +6,7 @@ void ObservedImage::Set(const DepthImage& image, const Plane& support) {
   image_ = &image;
   support_ = &support;
   all_.Set(image, 1);
-  half_.Set(image, NormalImage::kStep);
+  half_.Set(image, GradientNormals::kStep);
   normals_.Compute(image.camera, all_, half_);
 }
 

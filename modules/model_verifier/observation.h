@@ -2,7 +2,7 @@
 
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/plane.h"
-#include "modules/model_verifier/normal_image.h"
+#include "modules/model_verifier/gradient_normals.h"
 #include "modules/model_verifier/pixel_grid.h"
 
 namespace declutter {
@@ -11,7 +11,7 @@ namespace declutter {
 struct Observation {
   const DepthImage& image;
   const PixelGrid& grid;
-  const NormalImage& normals;
+  const GradientNormals& normals;
   const Plane& support;
 
   // The first row or column of the grid that is not before `begin` [px of the image].
@@ -32,7 +32,7 @@ class ObservedImage {
   const Plane* support_ = nullptr;
   PixelGrid all_;
   PixelGrid half_;
-  NormalImage normals_;
+  GradientNormals normals_;
 };
 
 }  // namespace declutter

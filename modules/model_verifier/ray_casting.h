@@ -8,18 +8,10 @@
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/solid.h"
 #include "modules/model_verifier/observation.h"
+#include "modules/model_verifier/projection.h"
 #include "modules/model_verifier/ray_kernels.h"
 
 namespace declutter {
-
-// Pixel rectangle, end exclusive.
-struct PixelWindow {
-  int u_begin = 0, u_end = 0, v_begin = 0, v_end = 0;
-};
-
-// The part of the image that a solid with a margin around it projects to; the whole image when it
-// reaches behind the camera.
-PixelWindow ProjectionWindow(const Solid& solid, double margin_m, const PinholeCamera& camera);
 
 // The solid in its own frame, ready to be met by points.
 class SolidCaster {
@@ -47,6 +39,7 @@ struct RayEvidence {
   std::vector<int32_t> fits;
   int64_t fit_sum = 0;          // of fits
   int pixel_weight = 1;         // [px]
+  PixelWindow window;           // of the grid, that holds them all
   std::vector<int32_t> hollow;  // indices of pixels that look into a cylinder through its open top
   int num_contradicting = 0;    // measured on the surface, with another normal
   int num_occluded = 0;         // hidden by something in front
@@ -62,9 +55,10 @@ struct RayEvidence {
 };
 
 // Casts a ray through each observed pixel that can see the solid. Points within the noise of the
-// support plane belong to the plane and explain nothing. Buffers of a `recycled` evidence are used
-// again.
-RayEvidence CastRays(const Solid& solid, const Observation& observation, RayEvidence recycled = {});
+// support plane belong to the plane and explain nothing. The second one uses the buffers of what it
+// replaces again.
+RayEvidence CastRays(const Solid& solid, const Observation& observation);
+void CastRays(const Solid& solid, const Observation& observation, RayEvidence* replaced);
 
 // [px] of a grid with points above the support plane within reach_m of a solid.
 int NumNear(const Solid& solid, double reach_m, const Observation& observation);

@@ -7,33 +7,11 @@
 #include <hwy/foreach_target.h>  // compiles the rest of this file once for each target
 #include <hwy/highway.h>
 
+#include "modules/model_verifier/ray_pixels-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace declutter {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Floats = hn::CappedTag<float, kRayPadding>;
-using Ints = hn::RebindToSigned<Floats>;
-using Vector = hn::Vec<Floats>;
-using Mask = hn::Mask<Floats>;
-
-struct Vector3 {
-  Vector x, y, z;
-};
-
-HWY_INLINE Vector Constant(float value) { return hn::Set(Floats(), value); }
-
-HWY_INLINE Vector Max0(const Vector& v) { return hn::Max(v, hn::Zero(Floats())); }
-
-HWY_INLINE Vector Dot(const float* a, const Vector3& b) {
-  return hn::Add(hn::Add(hn::Mul(Constant(a[0]), b.x), hn::Mul(Constant(a[1]), b.y)),
-                 hn::Mul(Constant(a[2]), b.z));
-}
-
-HWY_INLINE Vector3 Rotate(const float* R, const Vector3& v) {
-  return {Dot(R, v), Dot(R + 3, v), Dot(R + 6, v)};
-}
 
 // Where rays are inside a solid, as depths.
 struct Passage {
@@ -144,67 +122,6 @@ HWY_INLINE NormalMatch MatchNormal(const FaceDistances& q, const Vector3& p, con
   const auto second = hn::IfThenElse(is_x, hn::Max(q.y, q.z),
                                      hn::IfThenElse(is_y, hn::Max(q.x, q.z), hn::Max(q.x, q.y)));
   return {hn::IfThenElse(is_x, x, hn::IfThenElse(is_y, y, z)), hn::Le(second, inside)};
-}
-
-// Some pixels of a row.
-struct Pixels {
-  Vector3 ray_C;
-  Vector z;
-  Mask is_seen;      // in the window
-  Mask is_measured;  // and with depth
-};
-
-HWY_INLINE Pixels PixelsAt(const RayWindow& window, int u, int v) {
-  const Floats f;
-  Pixels pixels;
-  pixels.ray_C = {hn::LoadU(f, window.ray_x + u), Constant(window.ray_y[v]), Constant(1.0f)};
-  pixels.is_seen = hn::FirstN(f, HWY_MIN(static_cast<size_t>(window.u_end - u), hn::Lanes(f)));
-  pixels.z = hn::IfThenElseZero(
-      pixels.is_seen, hn::LoadU(f, window.z + static_cast<size_t>(v) * window.stride + u));
-  pixels.is_measured = hn::Gt(pixels.z, hn::Zero(f));
-  return pixels;
-}
-
-HWY_INLINE Vector3 NormalsAt(const RayWindow& window, int u, int v) {
-  const Floats f;
-  const Ints i32;
-  const size_t row = static_cast<size_t>(v >> window.normal_shift) * window.normal_stride;
-  if (window.normal_shift == 0) {
-    const size_t i = row + static_cast<size_t>(u);
-    return {hn::LoadU(f, window.normal_x + i), hn::LoadU(f, window.normal_y + i),
-            hn::LoadU(f, window.normal_z + i)};
-  }
-  const auto i = hn::ShiftRightSame(hn::Iota(i32, u), window.normal_shift);
-  return {hn::GatherIndex(f, window.normal_x + row, i),
-          hn::GatherIndex(f, window.normal_y + row, i),
-          hn::GatherIndex(f, window.normal_z + row, i)};
-}
-
-HWY_INLINE Vector Tolerance(const RayLimits& limits, const Vector& z) {
-  return hn::Max(Constant(limits.min_tolerance_m),
-                 hn::Mul(Constant(limits.tolerance_per_square), hn::Mul(z, z)));
-}
-
-HWY_INLINE Vector LeastHeight(const RayLimits& limits, const Vector& z) {
-  return hn::Mul(Constant(limits.min_height_in_tolerances), Tolerance(limits, z));
-}
-
-HWY_INLINE Vector HeightAbove(const float* support, const Pixels& pixels) {
-  return hn::Add(Constant(support[3]), hn::Mul(pixels.z, Dot(support, pixels.ray_C)));
-}
-
-HWY_INLINE Vector3 PointInO(const RaySolid& solid, const Vector3& ray_O, const Vector& z) {
-  const float* o = solid.camera_O;
-  return {hn::Add(Constant(o[0]), hn::Mul(z, ray_O.x)),
-          hn::Add(Constant(o[1]), hn::Mul(z, ray_O.y)),
-          hn::Add(Constant(o[2]), hn::Mul(z, ray_O.z))};
-}
-
-HWY_INLINE int Count(const Mask& mask) { return static_cast<int>(hn::CountTrue(Floats(), mask)); }
-
-HWY_INLINE Mask IsKnown(const Vector3& n) {
-  return hn::Or(hn::Ne(n.x, hn::Zero(Floats())),
-                hn::Or(hn::Ne(n.y, hn::Zero(Floats())), hn::Ne(n.z, hn::Zero(Floats()))));
 }
 
 // Points beside the solid that lie in the plane of its top face. The side of something that stands
@@ -337,6 +254,30 @@ HWY_INLINE int CountAllNear(const RaySolid& solid, const RayWindow& window, cons
   return num;
 }
 
+template <bool kIsCylinder>
+HWY_INLINE int CountAllInside(const RaySolid& solid, const SamplePoints& points, float min_depth) {
+  const Floats f;
+  int num = 0;
+  for (size_t i = 0; i < points.num; i += hn::Lanes(f)) {
+    const Vector3 x = {hn::LoadU(f, points.x + i), hn::LoadU(f, points.y + i),
+                       hn::LoadU(f, points.z + i)};
+    const Vector3 along = Rotate(points.axes, x);
+    const Vector3 p = {hn::Add(Constant(points.origin[0]), along.x),
+                       hn::Add(Constant(points.origin[1]), along.y),
+                       hn::Add(Constant(points.origin[2]), along.z)};
+    const FaceDistances q = DistancesToFaces<kIsCylinder>(solid, p);
+    const auto deepest = kIsCylinder ? hn::Max(q.x, q.z) : hn::Max(hn::Max(q.x, q.y), q.z);
+    num += Count(hn::And(hn::Lt(deepest, Constant(-min_depth)),
+                         hn::FirstN(f, HWY_MIN(points.num - i, hn::Lanes(f)))));
+  }
+  return num;
+}
+
+int CountInside(const RaySolid& solid, const SamplePoints& points, float min_depth_m) {
+  return solid.is_cylinder ? CountAllInside<true>(solid, points, min_depth_m)
+                           : CountAllInside<false>(solid, points, min_depth_m);
+}
+
 int CountNear(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
               float reach_m) {
   return solid.is_cylinder ? CountAllNear<true>(solid, window, limits, reach_m)
@@ -352,6 +293,7 @@ namespace declutter {
 namespace {
 
 HWY_EXPORT(CastWindow);
+HWY_EXPORT(CountInside);
 HWY_EXPORT(CountNear);
 
 }  // namespace
@@ -359,6 +301,10 @@ HWY_EXPORT(CountNear);
 void CastWindow(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
                 RayCounts* counts) {
   HWY_DYNAMIC_DISPATCH(CastWindow)(solid, window, limits, counts);
+}
+
+int CountInside(const RaySolid& solid, const SamplePoints& points, float min_depth_m) {
+  return HWY_DYNAMIC_DISPATCH(CountInside)(solid, points, min_depth_m);
 }
 
 int CountNear(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,

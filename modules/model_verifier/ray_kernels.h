@@ -63,6 +63,20 @@ struct RayCounts {
 void CastWindow(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
                 RayCounts* counts);
 
+// Points of a solid A: element i is origin + axes * (x[i], y[i], z[i]), in O of another. Arrays
+// have kRayPadding elements behind the last one.
+struct SamplePoints {
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* z = nullptr;
+  size_t num = 0;
+  float axes[9] = {};  // row-major
+  float origin[3] = {};
+};
+
+// How many of the points lie deeper inside a solid than min_depth_m.
+int CountInside(const RaySolid& solid, const SamplePoints& points, float min_depth_m);
+
 // Number of pixels above the support plane by more than min_height_in_tolerances and nearer to a
 // solid than reach_m.
 int CountNear(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,

@@ -7,24 +7,29 @@
 
 namespace declutter {
 
-Solid Refine(const Solid& solid, const Observation& observation) {
-  return solid.shape == Shape::kBox ? RefineBox(solid, observation)
-                                    : RefineCylinder(solid, observation);
+Solid Refine(const Solid& solid, const Observation& observation, SurfacePoints* buffer) {
+  return solid.shape == Shape::kBox ? RefineBox(solid, observation, buffer)
+                                    : RefineCylinder(solid, observation, buffer);
 }
 
 void RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
-                     RayEvidence* evidence) {
+                     RayEvidence* evidence, FitBuffers* buffers) {
   constexpr double kMaxLoss = 0.02;  // of the explained pixels: noise of the balance
-  const Solid refined = Refine(*solid, fitted);
-  RayEvidence refined_evidence = CastRays(refined, judging);
-  if (refined_evidence.Balance() < evidence->Balance() - kMaxLoss * evidence->num_explained()) {
-    if (solid->shape == Shape::kCylinder) ClimbCylinder(judging, solid, evidence);
+  const auto climb = [&] {
+    if (solid->shape == Shape::kCylinder) {
+      ClimbCylinder(judging, solid, evidence, &buffers->evidence);
+    }
+  };
+  const Solid refined = Refine(*solid, fitted, &buffers->points);
+  CastRays(refined, judging, &buffers->evidence);
+  if (buffers->evidence.Balance() < evidence->Balance() - kMaxLoss * evidence->num_explained()) {
+    climb();
     return;
   }
   const bool has_moved = refined.size != solid->size;
   *solid = refined;
-  *evidence = std::move(refined_evidence);
-  if (!has_moved && solid->shape == Shape::kCylinder) ClimbCylinder(judging, solid, evidence);
+  std::swap(*evidence, buffers->evidence);
+  if (!has_moved) climb();
 }
 
 }  // namespace declutter

@@ -2,6 +2,7 @@
 
 #include "modules/geometry/solid.h"
 #include "modules/model_verifier/ray_casting.h"
+#include "modules/model_verifier/surface_fit.h"
 
 namespace declutter {
 
@@ -10,12 +11,12 @@ namespace declutter {
 // face is not seen moves to where the area of the face in front of it ends, so that it is not
 // biased by the pixels a percentile would cut off. Parameters without enough points keep their
 // value.
-Solid Refine(const Solid& solid, const Observation& observation);
+Solid Refine(const Solid& solid, const Observation& observation, SurfacePoints* buffer);
 
 // Refines a solid on one observation where that does not lose what speaks for it on another: with
 // few points, or little of a cylinder's arc, a fit can go astray. evidence is what was observed of
 // the solid on the second, and is renewed with it.
 void RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
-                     RayEvidence* evidence);
+                     RayEvidence* evidence, FitBuffers* buffers);
 
 }  // namespace declutter

@@ -1,36 +1,37 @@
 #include "modules/model_verifier/surface_points.h"
 
+#include <algorithm>
+
 #include "modules/geometry/sensor_noise.h"
-#include "modules/model_verifier/ray_casting.h"
+#include "modules/model_verifier/projection.h"
+#include "modules/model_verifier/surface_fit.h"
 
 namespace declutter {
+namespace {
 
-std::vector<SurfacePoint> PointsNear(const Solid& solid, double margin_m,
-                                     const Observation& observation) {
-  const PinholeCamera& camera = observation.image.camera;
-  const PixelWindow window = ProjectionWindow(solid, margin_m, camera);
-  const int step = observation.grid.step;
-  const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
-  const Eigen::Vector3d half = 0.5 * solid.size + Eigen::Vector3d::Constant(margin_m);
-  std::vector<SurfacePoint> points;
-  for (int v = step * observation.First(window.v_begin); v < window.v_end; v += step) {
-    for (int u = step * observation.First(window.u_begin); u < window.u_end; u += step) {
-      const double z = observation.image.DepthAt(u, v);
-      if (z <= 0) continue;
-      const Eigen::Vector3d ray_C = camera.Ray(u, v);
-      const Eigen::Vector3d p_O = X_OC * (ray_C * z);
-      if (((p_O.cwiseAbs() - half).array() > 0).any()) continue;
-      const double ray_length = ray_C.norm();
-      SurfacePoint& point = points.emplace_back();
-      point.p_O = p_O;
-      point.ray_O = X_OC.linear() * (ray_C / ray_length);
-      point.n_O = X_OC.linear() * observation.normals.At(u, v).cast<double>();
-      point.sigma = MeasurementSigma(z) * ray_length;
-      point.num_px = observation.grid.pixel_weight();
-      point.pixel_area = point.num_px * z * z / (camera.fx * camera.fy) * ray_length;
-    }
-  }
-  return points;
+SurfaceLimits LimitsFor(const PixelGrid& grid, const PinholeCamera& camera) {
+  SurfaceLimits limits;
+  limits.margin_m = 0.030f;
+  limits.sigma_per_square = static_cast<float>(kSigmaPerSquaredDepth);
+  limits.min_tolerance_m = 0.005f;
+  limits.tolerance_in_sigmas = 3;
+  limits.min_incidence_cos = 0.05f;
+  limits.min_normal_cos = static_cast<float>(kMinFitCos);
+  limits.end_margin_m = static_cast<float>(0.5 * kFitEdgeMargin);
+  limits.area_per_square = static_cast<float>(grid.pixel_weight() / (camera.fx * camera.fy));
+  return limits;
+}
+
+}  // namespace
+
+void SurfacePoints::Find(const Solid& solid, const Observation& observation) {
+  const SurfaceLimits limits = LimitsFor(observation.grid, observation.image.camera);
+  const RayWindow window = WindowOf(solid, limits.margin_m, observation);
+  const auto room = static_cast<size_t>(window.u_end - window.u_begin) *
+                    static_cast<size_t>(window.v_end - window.v_begin);
+  points_.resize(std::max(points_.size(), room));
+  num_ = FindSurfacePoints(AsRaySolid(solid, observation.support), window, limits, points_.data());
+  pixel_weight_ = observation.grid.pixel_weight();
 }
 
 }  // namespace declutter

@@ -1,25 +1,28 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "modules/geometry/solid.h"
-#include "modules/model_verifier/ray_casting.h"
+#include "modules/model_verifier/observation.h"
+#include "modules/model_verifier/surface_kernels.h"
 
 namespace declutter {
 
-// A measurement near a solid, in its frame O.
-struct SurfacePoint {
-  Eigen::Vector3d p_O;    // [m]
-  Eigen::Vector3d n_O;    // measured unit normal, zero: unknown
-  Eigen::Vector3d ray_O;  // unit direction from the camera to the point
-  double sigma;           // [m] standard deviation along the ray
-  int num_px;             // pixels of the sensor that it stands for
-  double pixel_area;      // [m^2] of these pixels, at right angles to the ray
-};
+// The measurements on the surfaces of a solid: what it is fitted to. The buffer is used again.
+class SurfacePoints {
+ public:
+  // Those on the faces of a box, on the top of a cylinder, and between its ends.
+  void Find(const Solid& solid, const Observation& observation);
 
-// Observed points within margin_m of the solid.
-std::vector<SurfacePoint> PointsNear(const Solid& solid, double margin_m,
-                                     const Observation& observation);
+  const SurfacePoint* begin() const { return points_.data(); }
+  const SurfacePoint* end() const { return points_.data() + num_; }
+  // [px] of the sensor that each stands for.
+  int pixel_weight() const { return pixel_weight_; }
+
+ private:
+  std::vector<SurfacePoint> points_;
+  size_t num_ = 0;
+  int pixel_weight_ = 1;
+};
 
 }  // namespace declutter

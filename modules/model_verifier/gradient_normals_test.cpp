@@ -1,4 +1,4 @@
-#include "modules/model_verifier/normal_image.h"
+#include "modules/model_verifier/gradient_normals.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ DepthImage SlopedWall(double slope) {
 
 const Plane kSupport = {-Eigen::Vector3d::UnitZ(), 5.0};
 
-TEST(NormalImage, GivesTheNormalOfAPlane) {
+TEST(GradientNormals, GivesTheNormalOfAPlane) {
   const DepthImage image = SlopedWall(0.5);
   ObservedImage observed;
   observed.Set(image, kSupport);
@@ -39,7 +39,7 @@ TEST(NormalImage, GivesTheNormalOfAPlane) {
   EXPECT_GT(normal.dot(truth), 0.9999);
 }
 
-TEST(NormalImage, IsZeroAtAJumpAtABorderAndWithoutDepth) {
+TEST(GradientNormals, IsZeroAtAJumpAtABorderAndWithoutDepth) {
   DepthImage image = SlopedWall(0);
   for (int v = 0; v < kCamera.height; ++v) {
     for (int u = 40; u < kCamera.width; ++u) {
@@ -48,7 +48,7 @@ TEST(NormalImage, IsZeroAtAJumpAtABorderAndWithoutDepth) {
   }
   ObservedImage observed;
   observed.Set(image, kSupport);
-  const NormalImage& normals = observed.every_pixel().normals;
+  const GradientNormals& normals = observed.every_pixel().normals;
   EXPECT_FALSE(normals.At(20, 24).isZero());
   EXPECT_TRUE(normals.At(39, 20).isZero());
   EXPECT_TRUE(normals.At(0, 24).isZero());
@@ -56,7 +56,7 @@ TEST(NormalImage, IsZeroAtAJumpAtABorderAndWithoutDepth) {
   EXPECT_TRUE(normals.At(50, 30).isZero());
 }
 
-TEST(NormalImage, IsTheSameWithEveryInstructionSet) {
+TEST(GradientNormals, IsTheSameWithEveryInstructionSet) {
   DepthImage image = SlopedWall(0.2);
   std::mt19937 random(3);
   for (uint16_t& count : image.counts) {
@@ -68,7 +68,7 @@ TEST(NormalImage, IsTheSameWithEveryInstructionSet) {
     hwy::GetChosenTarget().DeInit();
     ObservedImage observed;
     observed.Set(image, kSupport);
-    const NormalImage& normals = observed.every_pixel().normals;
+    const GradientNormals& normals = observed.every_pixel().normals;
     std::vector<float> all;
     for (int v = 0; v < kCamera.height; v += 2) {
       for (int u = 0; u < kCamera.width; u += 2) {

@@ -11,7 +11,7 @@ namespace declutter {
 // Surface normals of a depth image, one for 2 x 2 pixels: unit vectors toward the camera, in C;
 // zero where the surface around a pixel is not smooth or not measured. From the gradient of inverse
 // depth, which is constant on a plane, across about 24 mm.
-class NormalImage {
+class GradientNormals {
  public:
   static constexpr int kStep = 2;  // [px] from one normal to the next
 

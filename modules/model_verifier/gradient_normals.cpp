@@ -1,4 +1,4 @@
-#include "modules/model_verifier/normal_image.h"
+#include "modules/model_verifier/gradient_normals.h"
 
 #include "modules/model_verifier/normal_kernels.h"
 
@@ -12,8 +12,8 @@ constexpr auto kMargin = static_cast<size_t>(kNormalMargin_px);
 
 }  // namespace
 
-void NormalImage::Compute(const PinholeCamera& camera, const PixelGrid& all,
-                          const PixelGrid& every_second) {
+void GradientNormals::Compute(const PinholeCamera& camera, const PixelGrid& all,
+                              const PixelGrid& every_second) {
   const auto rows = static_cast<size_t>(all.rows);
   const auto columns = static_cast<size_t>(all.columns);
   inverse_depth_.resize(all.z.size());

@@ -1,0 +1,141 @@
+#include "modules/model_verifier/surface_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "modules/model_verifier/surface_kernels.cpp"
+#include <hwy/foreach_target.h>  // compiles the rest of this file once for each target
+#include <hwy/highway.h>
+
+#include "modules/model_verifier/ray_pixels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace declutter {
+namespace HWY_NAMESPACE {
+
+// Measurements near a solid, in O.
+struct NearPoints {
+  Vector3 p, n, ray;
+  Vector sigma, area;
+  Mask has_normal;
+};
+
+// Bits of the points that lie on one face.
+HWY_INLINE hn::Vec<Ints> BitsOfFace(const NearPoints& points, const RaySolid& solid,
+                                    const SurfaceLimits& limits, const Vector& tolerance, int axis,
+                                    int sign) {
+  const Ints i32;
+  const auto along = [&](const Vector3& v) {
+    return hn::Mul(Constant(static_cast<float>(sign)), axis == 0 ? v.x : axis == 1 ? v.y : v.z);
+  };
+  const auto distance = hn::Abs(hn::Sub(along(points.p), Constant(solid.half_size[axis])));
+  const auto is_turned_away =
+      hn::And(points.has_normal, hn::Le(along(points.n), Constant(limits.min_normal_cos)));
+  const auto is_on = hn::AndNot(
+      is_turned_away, hn::And(hn::Le(distance, tolerance),
+                              hn::Le(along(points.ray), Constant(-limits.min_incidence_cos))));
+  return hn::IfThenElseZero(hn::RebindMask(i32, is_on),
+                            hn::Set(i32, static_cast<int32_t>(SurfaceBit(axis, sign))));
+}
+
+HWY_INLINE hn::Vec<Ints> BitsOf(const NearPoints& points, const RaySolid& solid,
+                                const SurfaceLimits& limits) {
+  const Ints i32;
+  const auto tolerance = hn::Max(Constant(limits.min_tolerance_m),
+                                 hn::Mul(Constant(limits.tolerance_in_sigmas), points.sigma));
+  auto bits = BitsOfFace(points, solid, limits, tolerance, 2, 1);
+  if (solid.is_cylinder) {
+    const auto is_between =
+        hn::Le(hn::Abs(points.p.z), Constant(solid.half_size[2] - limits.end_margin_m));
+    return hn::Or(bits, hn::IfThenElseZero(hn::RebindMask(i32, is_between),
+                                           hn::Set(i32, static_cast<int32_t>(kCylinderSideBit))));
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    bits = hn::Or(bits, hn::Or(BitsOfFace(points, solid, limits, tolerance, axis, 1),
+                               BitsOfFace(points, solid, limits, tolerance, axis, -1)));
+  }
+  return bits;
+}
+
+// Appends the points that have bits.
+HWY_INLINE size_t Store(const NearPoints& points, const hn::Vec<Ints>& bits, SurfacePoint* stored) {
+  constexpr size_t kMembers = 11;
+  const Floats f;
+  const Ints i32;
+  HWY_ALIGN float members[kMembers][kRayPadding];
+  HWY_ALIGN int32_t surfaces[kRayPadding];
+  const Vector* const all[kMembers] = {&points.p.x,   &points.p.y,   &points.p.z,   &points.n.x,
+                                       &points.n.y,   &points.n.z,   &points.ray.x, &points.ray.y,
+                                       &points.ray.z, &points.sigma, &points.area};
+  for (size_t m = 0; m < kMembers; ++m) hn::Store(*all[m], f, members[m]);
+  hn::Store(bits, i32, surfaces);
+  size_t num = 0;
+  for (size_t i = 0; i < hn::Lanes(f); ++i) {
+    if (surfaces[i] == 0) continue;
+    stored[num++] = {{members[0][i], members[1][i], members[2][i]},
+                     {members[3][i], members[4][i], members[5][i]},
+                     {members[6][i], members[7][i], members[8][i]},
+                     members[9][i],
+                     members[10][i],
+                     static_cast<uint32_t>(surfaces[i])};
+  }
+  return num;
+}
+
+HWY_INLINE size_t FindInPixels(const RaySolid& solid, const RayWindow& window,
+                               const SurfaceLimits& limits, int u, int v, SurfacePoint* stored) {
+  const Floats f;
+  const Pixels pixels = PixelsAt(window, u, v);
+  if (hn::AllFalse(f, pixels.is_measured)) return 0;
+  const Vector3 ray_O = Rotate(solid.R_OC, pixels.ray_C);
+  NearPoints points;
+  points.p = PointInO(solid, ray_O, pixels.z);
+  auto is_near = pixels.is_measured;
+  const Vector* const p[] = {&points.p.x, &points.p.y, &points.p.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    is_near = hn::And(is_near,
+                      hn::Le(hn::Abs(*p[axis]), Constant(solid.half_size[axis] + limits.margin_m)));
+  }
+  if (hn::AllFalse(f, is_near)) return 0;
+  const auto square = hn::Mul(pixels.z, pixels.z);
+  const Vector3& r = pixels.ray_C;
+  const auto length =
+      hn::Sqrt(hn::Add(hn::Add(hn::Mul(r.x, r.x), hn::Mul(r.y, r.y)), Constant(1.0f)));
+  points.sigma = hn::Mul(hn::Mul(Constant(limits.sigma_per_square), square), length);
+  points.area = hn::Mul(hn::Mul(Constant(limits.area_per_square), square), length);
+  points.ray = {hn::Div(ray_O.x, length), hn::Div(ray_O.y, length), hn::Div(ray_O.z, length)};
+  const Vector3 n_C = NormalsAt(window, u, v);
+  points.has_normal = IsKnown(n_C);
+  points.n = Rotate(solid.R_OC, n_C);
+  const auto bits = BitsOf(points, solid, limits);
+  return Store(points, hn::IfThenElseZero(hn::RebindMask(Ints(), is_near), bits), stored);
+}
+
+size_t FindSurfacePoints(const RaySolid& solid, const RayWindow& window,
+                         const SurfaceLimits& limits, SurfacePoint* points) {
+  size_t num = 0;
+  for (int v = window.v_begin; v < window.v_end; ++v) {
+    for (int u = window.u_begin; u < window.u_end; u += static_cast<int>(hn::Lanes(Floats()))) {
+      num += FindInPixels(solid, window, limits, u, v, points + num);
+    }
+  }
+  return num;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace declutter
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace declutter {
+namespace {
+
+HWY_EXPORT(FindSurfacePoints);
+
+}  // namespace
+
+size_t FindSurfacePoints(const RaySolid& solid, const RayWindow& window,
+                         const SurfaceLimits& limits, SurfacePoint* points) {
+  return HWY_DYNAMIC_DISPATCH(FindSurfacePoints)(solid, window, limits, points);
+}
+
+}  // namespace declutter
+#endif
