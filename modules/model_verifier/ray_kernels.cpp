@@ -124,21 +124,21 @@ HWY_INLINE NormalMatch MatchNormal(const FaceDistances& q, const Vector3& p, con
   return {hn::IfThenElse(is_x, x, hn::IfThenElse(is_y, y, z)), hn::Le(second, inside)};
 }
 
-// Points beside the solid that lie in the plane of its top face. The side of something that stands
-// in front is no part of it.
+// Points beside the solid that lie in the plane of its top face, of those at its height. The side
+// of something that stands in front is no part of it.
 template <bool kIsCylinder>
 HWY_INLINE int CountOverhanging(const RaySolid& solid, const RayWindow& window,
                                 const RayLimits& limits, const Pixels& pixels,
-                                const Mask& is_beside, const Vector3& p, const FaceDistances& q,
-                                const Vector& tolerance, int u, int v) {
+                                const Mask& is_at_top, const Vector3& ray_O, int u, int v) {
   const Floats f;
-  const auto from_top = hn::Abs(hn::Sub(p.z, Constant(solid.half_size[2])));
+  const FaceDistances q = DistancesToFaces<kIsCylinder>(solid, PointInO(solid, ray_O, pixels.z));
   const auto overhang = kIsCylinder ? q.x : hn::Max(q.x, q.y);
   auto is_overhanging = hn::And(
-      hn::And(is_beside, hn::Le(from_top, Constant(limits.top_tolerance_m))),
+      is_at_top,
       hn::And(hn::Ge(overhang, hn::Zero(f)), hn::Le(overhang, Constant(limits.max_overhang_m))));
   if (hn::AllFalse(f, is_overhanging)) return 0;
-  is_overhanging = hn::And(is_overhanging, hn::Ge(HeightAbove(solid.support, pixels), tolerance));
+  is_overhanging = hn::And(is_overhanging,
+                           hn::Ge(HeightAbove(solid.support, pixels), Tolerance(limits, pixels.z)));
   const Vector3 n_C = NormalsAt(window, u, v);
   const auto is_top = hn::Gt(Dot(solid.R_OC + 6, n_C), Constant(limits.min_normal_cos));
   return Count(hn::And(is_overhanging, hn::Or(is_top, hn::Not(IsKnown(n_C)))));
@@ -173,36 +173,29 @@ HWY_INLINE void Explain(const RaySolid& solid, const RayWindow& window, const Ra
   counts->num_explained += Count(is_explained);
 }
 
+// Sorts measured pixels of which the solid is hit.
 template <bool kIsCylinder>
-HWY_INLINE void CastPixels(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
-                           int u, int v, RayCounts* counts) {
+HWY_INLINE void SortHits(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
+                         const Pixels& pixels, const Mask& is_hit, const Vector3& ray_O,
+                         const Passage& passage, int u, int v, RayCounts* counts) {
   const Floats f;
   const Ints i32;
-  const Pixels pixels = PixelsAt(window, u, v);
-  const Vector3 ray_O = Rotate(solid.R_OC, pixels.ray_C);
-  const Passage passage = PassageOf<kIsCylinder>(solid, ray_O);
-  const auto is_hit = hn::And(pixels.is_seen, passage.is_hit());
   const Vector& z = pixels.z;
   const Vector3 p = PointInO(solid, ray_O, z);
   const FaceDistances q = DistancesToFaces<kIsCylinder>(solid, p);
   const auto tolerance = Tolerance(limits, z);
-  counts->num_overhanging += CountOverhanging<kIsCylinder>(
-      solid, window, limits, pixels, hn::AndNot(is_hit, pixels.is_measured), p, q, tolerance, u, v);
-  if (hn::AllFalse(f, is_hit)) return;
-
-  counts->num_unknown += Count(hn::AndNot(pixels.is_measured, is_hit));
-  const auto is_measured = hn::And(is_hit, pixels.is_measured);
   const auto distance = SignedDistance<kIsCylinder>(q);
-  const auto is_on = hn::And(hn::And(is_measured, hn::Lt(hn::Abs(distance), tolerance)),
+  const auto is_on = hn::And(hn::And(is_hit, hn::Lt(hn::Abs(distance), tolerance)),
                              hn::Ge(HeightAbove(solid.support, pixels), LeastHeight(limits, z)));
   if (!hn::AllFalse(f, is_on)) {
     Explain<kIsCylinder>(solid, window, limits, is_on, p, q, hn::Div(distance, tolerance), u, v,
                          counts);
   }
-  auto is_other = hn::AndNot(is_on, is_measured);
+  auto is_other = hn::AndNot(is_on, is_hit);
   const auto is_in_front = hn::Lt(z, passage.z_in);
   counts->num_occluded += Count(hn::And(is_other, is_in_front));
   is_other = hn::AndNot(is_in_front, is_other);
+  if (hn::AllFalse(f, is_other)) return;
   if (kIsCylinder) {
     const auto is_hollow =
         hn::And(hn::And(is_other, passage.through_top), hn::Lt(distance, hn::Zero(f)));
@@ -216,12 +209,35 @@ HWY_INLINE void CastPixels(const RaySolid& solid, const RayWindow& window, const
 }
 
 template <bool kIsCylinder>
+HWY_INLINE void CastPixels(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
+                           const RowRays& rays, int u, int v, RayCounts* counts) {
+  const Floats f;
+  const Pixels pixels = PixelsAt(window, u, v);
+  const Vector3 ray_O = rays.At(solid.R_OC, pixels.ray_C.x);
+  const Passage passage = PassageOf<kIsCylinder>(solid, ray_O);
+  const auto is_hit = hn::And(pixels.is_seen, passage.is_hit());
+  const auto height_O = hn::Add(Constant(solid.camera_O[2]), hn::Mul(pixels.z, ray_O.z));
+  const auto from_top = hn::Abs(hn::Sub(height_O, Constant(solid.half_size[2])));
+  const auto is_at_top = hn::AndNot(
+      is_hit, hn::And(pixels.is_measured, hn::Le(from_top, Constant(limits.top_tolerance_m))));
+  if (!hn::AllFalse(f, is_at_top)) {
+    counts->num_overhanging +=
+        CountOverhanging<kIsCylinder>(solid, window, limits, pixels, is_at_top, ray_O, u, v);
+  }
+  if (hn::AllFalse(f, is_hit)) return;
+  counts->num_unknown += Count(hn::AndNot(pixels.is_measured, is_hit));
+  SortHits<kIsCylinder>(solid, window, limits, pixels, hn::And(is_hit, pixels.is_measured), ray_O,
+                        passage, u, v, counts);
+}
+
+template <bool kIsCylinder>
 HWY_INLINE void CastAll(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
                         RayCounts* counts) {
   const int lanes = static_cast<int>(hn::Lanes(Floats()));
   for (int v = window.v_begin; v < window.v_end; ++v) {
+    const RowRays rays(solid.R_OC, window.ray_y[v]);
     for (int u = window.u_begin; u < window.u_end; u += lanes) {
-      CastPixels<kIsCylinder>(solid, window, limits, u, v, counts);
+      CastPixels<kIsCylinder>(solid, window, limits, rays, u, v, counts);
     }
   }
 }

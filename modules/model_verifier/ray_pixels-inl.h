@@ -38,6 +38,21 @@ HWY_INLINE Vector3 Rotate(const float* R, const Vector3& v) {
   return {Dot(R, v), Dot(R + 3, v), Dot(R + 6, v)};
 }
 
+// The rays of a row of pixels in O: along_x * x of the ray in C + rest.
+struct RowRays {
+  float rest[3];
+
+  HWY_INLINE RowRays(const float* R_OC, float ray_y) {
+    for (int i = 0; i < 3; ++i) rest[i] = R_OC[3 * i + 1] * ray_y + R_OC[3 * i + 2];
+  }
+  HWY_INLINE Vector3 At(const float* R_OC, const Vector& ray_x) const {
+    const auto along = [&](int i) {
+      return hn::Add(hn::Mul(Constant(R_OC[3 * i]), ray_x), Constant(rest[i]));
+    };
+    return {along(0), along(1), along(2)};
+  }
+};
+
 // Some pixels of a row.
 struct Pixels {
   Vector3 ray_C;
