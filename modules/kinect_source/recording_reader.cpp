@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMaxQuaternionError = 0.01;
+constexpr size_t kMaxKeptBytes = 64 << 20;  // of images, 40 frames of 640 x 480 px with colour
 
 std::vector<RecordingEntry> ListFrames(const KinectSourceConfig& config) {
   const fs::path input = config.input();
@@ -62,9 +63,21 @@ std::optional<RecordedFrame> RecordingReader::Next() {
     loop_offset_us_ += entries_.back().utime - entries_.front().utime + kFramePeriodUs;
     next_ = 0;
   }
-  const RecordingEntry& entry = entries_[next_++];
+  const size_t index = next_++;
+  RecordedFrame frame = index < kept_.size() ? kept_[index] : Read(entries_[index]);
+  const size_t num_bytes =
+      2 * frame.depth.image.counts.size() + (frame.color ? frame.color->rgb.size() : 0);
+  if (loop_ && index == kept_.size() && kept_bytes_ + num_bytes <= kMaxKeptBytes) {
+    kept_.push_back(frame);
+    kept_bytes_ += num_bytes;
+  }
+  frame.depth.header.utime += loop_offset_us_;
+  return frame;
+}
+
+RecordedFrame RecordingReader::Read(const RecordingEntry& entry) const {
   RecordedFrame frame;
-  frame.depth.header.utime = entry.utime + loop_offset_us_;
+  frame.depth.header.utime = entry.utime;
   frame.depth.header.frame = entry.name;
   frame.depth.X_WC = X_WC_;
   try {

@@ -31,15 +31,19 @@ class RecordingReader {
 
   // The next frame; nothing after the last one unless config.loop is set. A frame that cannot be
   // read comes with header.error, in which paths are below config.input.
+  // Frames of a loop stay in memory where there are few.
   std::optional<RecordedFrame> Next();
 
   size_t num_frames() const { return entries_.size(); }
 
  private:
+  RecordedFrame Read(const RecordingEntry& entry) const;
   std::string BelowInput(std::string text) const;
 
   std::string input_;
   bool loop_ = false;
+  std::vector<RecordedFrame> kept_;  // of a loop: the first frames, in order
+  size_t kept_bytes_ = 0;
   Eigen::Isometry3d X_WC_;
   std::vector<RecordingEntry> entries_;
   size_t next_ = 0;

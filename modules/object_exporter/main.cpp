@@ -15,13 +15,16 @@ class ObjectExporterModule {
 
   ObjectExporterModule(const Config& config, runtime::Bus& bus) : bus_(bus) {
     bus.OnStart([this, config] { Open(config); });
-    bus.Subscribe<depth_frame_t>(kDepthFrame, [this](const depth_frame_t& frame) {
-      exporter_->AddDepth(codec::Decode(frame));
-    });
-    bus.Subscribe<color_frame_t>(kColorFrame, [this](const color_frame_t& frame) {
-      exporter_->AddColor(frame.utime, codec::Decode(frame));
-    });
-    if (config.feature_pictures()) {
+    // What only pictures show is left alone where there are none.
+    if (config.pictures()) {
+      bus.Subscribe<depth_frame_t>(kDepthFrame, [this](const depth_frame_t& frame) {
+        exporter_->AddDepth(codec::Decode(frame));
+      });
+      bus.Subscribe<color_frame_t>(kColorFrame, [this](const color_frame_t& frame) {
+        exporter_->AddColor(frame.utime, codec::Decode(frame));
+      });
+    }
+    if (config.pictures() && config.feature_pictures()) {
       bus.Subscribe<feature_cloud_t>(kFeatures, [this](const feature_cloud_t& features) {
         exporter_->AddFeatures(codec::Decode(features));
       });
