@@ -1,58 +1,161 @@
 #include "modules/feature_estimator/components.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
+
+#include "modules/feature_estimator/lanes.h"
 
 namespace declutter {
 namespace {
 
-constexpr int32_t kNoPatch = -1;
-
-// Disjoint sets of elements, each named by its smallest element, in given memory.
-class DisjointSets {
+// The longest distance over which points connect, by the depth of the nearer one.
+class Reach {
  public:
-  explicit DisjointSets(std::vector<int32_t>* parent) : parent_(*parent) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+  explicit Reach(const Connection& connection)
+      : distance_m_(static_cast<float>(connection.distance_m)),
+        distance_per_z2_(static_cast<float>(connection.distance_per_z2)) {}
+
+  DECLUTTER_LANES float At(float z) const {
+    return std::max(distance_m_, distance_per_z2_ * z * z);
   }
 
-  int32_t Find(size_t element) {
-    auto root = static_cast<int32_t>(element);
+ private:
+  float distance_m_, distance_per_z2_;
+};
+
+DECLUTTER_LANES bool AreConnected(const PointImage& points, const Reach& reach, size_t a,
+                                  size_t b) {
+  const float x = points.x[a] - points.x[b];
+  const float y = points.y[a] - points.y[b];
+  const float z = points.z[a] - points.z[b];
+  const float distance = reach.At(std::min(points.z[a], points.z[b]));
+  // Where there is no point, or none at either, z is out of reach.
+  return (x * x + y * y + z * z <= distance * distance) &
+         (std::max(points.z[a], points.z[b]) < PointImage::kFar);
+}
+
+// Marks the elements from begin on that have a point connected with that of the next element.
+DECLUTTER_FOR_EACH_PROCESSOR void MarkConnectedWithNext(const PointImage& points,
+                                                        const Reach& reach, size_t begin,
+                                                        uint8_t* marked) {
+  const auto num = static_cast<size_t>(points.width);
+  for (size_t i = 0; i < num; ++i) {
+    marked[i] = AreConnected(points, reach, begin + i, begin + i + 1);
+  }
+}
+
+// Cuts the rows into runs.
+void FindRuns(const PointImage& points, const Reach& reach, ComponentImage* image) {
+  image->runs.clear();
+  image->first_run.clear();
+  image->goes_on.resize(static_cast<size_t>(points.width));
+  for (int j = 0; j < points.height; ++j) {
+    image->first_run.push_back(image->runs.size());
+    const size_t begin = points.Index(0, j);
+    MarkConnectedWithNext(points, reach, begin, image->goes_on.data());
+    bool is_in_run = false;
+    for (size_t i = 0; i < image->goes_on.size(); ++i) {
+      const size_t p = begin + i;
+      if (!points.HasPoint(p)) continue;
+      if (!is_in_run) image->runs.push_back({p, p, points.z[p], points.z[p]});
+      PointRun& run = image->runs.back();
+      run.end = p + 1;
+      run.z_min = std::min(run.z_min, points.z[p]);
+      run.z_max = std::max(run.z_max, points.z[p]);
+      is_in_run = image->goes_on[i] != 0;
+    }
+  }
+  image->first_run.push_back(image->runs.size());
+}
+
+// Disjoint sets of runs, each named by its first one, in given memory.
+class DisjointSets {
+ public:
+  DisjointSets(size_t num, std::vector<int32_t>* parent) : parent_(*parent) {
+    parent_.resize(num);
+    for (size_t i = 0; i < num; ++i) parent_[i] = static_cast<int32_t>(i);
+  }
+
+  size_t Find(size_t run) {
+    auto root = static_cast<int32_t>(run);
     while (Parent(root) != root) root = Parent(root) = Parent(Parent(root));
-    return root;
+    return static_cast<size_t>(root);
   }
 
   void Unite(size_t a, size_t b) {
-    const int32_t root_a = Find(a), root_b = Find(b);
+    const auto root_a = static_cast<int32_t>(Find(a)), root_b = static_cast<int32_t>(Find(b));
     Parent(std::max(root_a, root_b)) = std::min(root_a, root_b);
   }
 
  private:
-  int32_t& Parent(int32_t element) { return parent_[static_cast<size_t>(element)]; }
+  int32_t& Parent(int32_t run) { return parent_[static_cast<size_t>(run)]; }
 
   std::vector<int32_t>& parent_;
 };
 
-// a has a point.
-bool AreConnected(const PointImage& points, const Connection& connection, size_t a, size_t b) {
-  const float x = points.x[a] - points.x[b];
-  const float y = points.y[a] - points.y[b];
-  const float z = points.z[a] - points.z[b];
-  const float depth = std::min(points.z[a], points.z[b]);
-  const float distance = std::max(static_cast<float>(connection.distance_m),
-                                  static_cast<float>(connection.distance_per_z2) * depth * depth);
-  return points.HasPoint(b) && x * x + y * y + z * z <= distance * distance;
-}
+// Joins the runs of one component. Runs of one set are not compared again, and few runs of
+// different sets are near each other.
+class Joiner {
+ public:
+  Joiner(const PointImage& points, const Connection& connection, ComponentImage* image)
+      : points_(points),
+        reach_(connection),
+        reach_px_(std::max(1, connection.reach_px / points.thinning)),
+        image_(*image),
+        sets_(image->runs.size(), &image->parent) {}
 
-// Sets for each point the last one of the run of points of its patch that it is in.
-void FindRunEnds(ComponentImage* image) {
-  const std::vector<int32_t>& patch = image->patch;
-  for (size_t k = image->elements.size(); k-- > 0;) {
-    const int32_t p = image->elements[k];
-    const auto i = static_cast<size_t>(p);
-    image->run_end[i] = patch[i + 1] == patch[i] ? image->run_end[i + 1] : p;
+  DisjointSets& sets() { return sets_; }
+
+  // Next rows first: nearly all runs are then in the right set.
+  void JoinAll() {
+    for (int row = 1; row <= reach_px_; ++row) JoinRows(row);
+    JoinRows(0);
   }
-}
+
+ private:
+  // Joins runs with those `distance` rows further down.
+  void JoinRows(int distance) {
+    const auto down = static_cast<size_t>(distance);
+    const size_t shift = down * static_cast<size_t>(points_.stride);
+    for (size_t j = 0; j + down < static_cast<size_t>(points_.height); ++j) {
+      size_t first = image_.first_run[j + down];
+      for (size_t a = image_.first_run[j]; a < image_.first_run[j + 1]; ++a) {
+        const PointRun& run = image_.runs[a];
+        const size_t from = run.begin + shift - margin(), to = run.end + shift + margin();
+        while (first < image_.first_run[j + down + 1] && image_.runs[first].end <= from) ++first;
+        for (size_t b = distance == 0 ? a + 1 : first;
+             b < image_.first_run[j + down + 1] && image_.runs[b].begin < to; ++b) {
+          if (sets_.Find(a) != sets_.Find(b) && Touch(run, image_.runs[b], shift)) {
+            sets_.Unite(a, b);
+          }
+        }
+      }
+    }
+  }
+
+  // True when a point of run a connects with one of run b, which is `shift` elements further.
+  bool Touch(const PointRun& a, const PointRun& b, size_t shift) const {
+    const float gap = std::max(a.z_min - b.z_max, b.z_min - a.z_max);
+    if (gap > reach_.At(std::min(a.z_max, b.z_max))) return false;
+    const size_t begin = std::max(a.begin + shift, b.begin - margin());
+    const size_t end = std::min(a.end + shift, b.end + margin());
+    for (size_t p = begin; p < end; ++p) {
+      const size_t last = std::min(p + margin() + 1, b.end);
+      for (size_t q = std::max(p - margin(), b.begin); q < last; ++q) {
+        if (AreConnected(points_, reach_, p - shift, q)) return true;
+      }
+    }
+    return false;
+  }
+
+  size_t margin() const { return static_cast<size_t>(reach_px_); }
+
+  const PointImage& points_;
+  Reach reach_;
+  int reach_px_;
+  ComponentImage& image_;
+  DisjointSets sets_;
+};
 
 }  // namespace
 
@@ -61,55 +164,26 @@ ComponentImage LabelComponents(const PointImage& points, const Connection& conne
   ComponentImage components = std::move(recycled);
   components.num_components = 0;
   components.label.assign(points.x.size(), -1);
-  components.patch.assign(points.x.size(), kNoPatch);
-  components.num_points.assign(points.x.size(), 0);
-  components.run_end.resize(points.x.size());
-  components.parent.resize(points.x.size());
-  components.elements.clear();
-  for (int j = 0; j < points.height; ++j) {
-    for (size_t p = points.Index(0, j); p < points.Index(points.width, j); ++p) {
-      if (points.HasPoint(p)) components.elements.push_back(static_cast<int32_t>(p));
-    }
+  FindRuns(points, Reach(connection), &components);
+  Joiner joiner(points, connection, &components);
+  joiner.JoinAll();
+
+  const size_t num_runs = components.runs.size();
+  components.num_points.assign(num_runs, 0);
+  components.number.assign(num_runs, -1);
+  for (size_t i = 0; i < num_runs; ++i) {
+    const PointRun& run = components.runs[i];
+    components.num_points[joiner.sets().Find(i)] += static_cast<int32_t>(run.end - run.begin);
   }
-  DisjointSets sets(&components.parent);
-  const auto for_each_point = [&components](const auto& visit) {
-    for (const int32_t p : components.elements) visit(static_cast<size_t>(p));
-  };
-  const auto connect = [&](size_t a, size_t b) {
-    if (AreConnected(points, connection, a, b)) sets.Unite(a, b);
-  };
-
-  // Direct neighbours first: nearly all points are then in the right set, and the long reach only
-  // looks at pairs of different sets.
-  const auto reach = static_cast<size_t>(std::max(1, connection.reach_px / points.thinning));
-  const auto stride = static_cast<size_t>(points.stride);
-  for_each_point([&](size_t p) {
-    connect(p, p + 1);
-    connect(p, p + stride);
-  });
-  int32_t* patch = components.patch.data();
-  for_each_point([&](size_t p) { patch[p] = sets.Find(p); });
-  FindRunEnds(&components);
-  for_each_point([&](size_t p) {
-    for (size_t row = 0; row <= reach; ++row) {
-      const size_t first = p + row * stride - (row == 0 ? 0 : reach);
-      const size_t last = p + row * stride + reach;
-      if (patch[first] == patch[p] && static_cast<size_t>(components.run_end[first]) >= last) {
-        continue;
-      }
-      for (size_t q = first; q <= last; ++q) {
-        if (patch[q] != patch[p] && patch[q] != kNoPatch) connect(p, q);
-      }
-    }
-  });
-
-  for_each_point([&](size_t p) { ++components.num_points[static_cast<size_t>(sets.Find(p))]; });
-  for_each_point([&](size_t p) {
-    const auto root = static_cast<size_t>(sets.Find(p));
-    if (components.num_points[root] < min_points) return;
-    if (root == p) components.label[root] = components.num_components++;
-    components.label[p] = components.label[root];
-  });
+  for (size_t i = 0; i < num_runs; ++i) {
+    const size_t root = joiner.sets().Find(i);
+    if (components.num_points[root] < min_points) continue;
+    if (root == i) components.number[i] = components.num_components++;
+    const PointRun& run = components.runs[i];
+    std::fill(components.label.begin() + static_cast<std::ptrdiff_t>(run.begin),
+              components.label.begin() + static_cast<std::ptrdiff_t>(run.end),
+              components.number[root]);
+  }
   return components;
 }
 

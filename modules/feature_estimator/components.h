@@ -15,15 +15,24 @@ struct Connection {
   int reach_px = 0;
 };
 
+// Points of one row, each connected with the next one: elements begin .. end - 1.
+struct PointRun {
+  size_t begin = 0, end = 0;
+  float z_min = 0, z_max = 0;  // [m]
+};
+
 // Connected components (paper, section 3, step v).
 struct ComponentImage {
   int num_components = 0;
   std::vector<int32_t>
       label;  // 0 .. num_components - 1, in the order of their first pixels; -1: none
 
-  // What labelling needs meanwhile, by element: sets, patches of direct neighbours and the ends of
-  // their runs, numbers of points; and the elements with a point.
-  std::vector<int32_t> parent, patch, run_end, num_points, elements;
+  // What labelling needs meanwhile: the runs of all rows, the first run of each row, the set of
+  // each run and its number of points and number.
+  std::vector<PointRun> runs;
+  std::vector<size_t> first_run;
+  std::vector<int32_t> parent, num_points, number;
+  std::vector<uint8_t> goes_on;  // per element of a row
 };
 
 // Components with fewer than min_points points are dropped. The margin of the points must be at
