@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "modules/model_verifier/cylinder_refinement.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/shared_space.h"
 
@@ -38,7 +39,8 @@ void ModelSelection::AddCandidates(const std::vector<Hypothesis>& hypotheses, co
     CastRays(hypothesis.solid, input.observation, &candidate.evidence);
     if (!IsPlausible(candidate.evidence)) continue;
     candidate.hypothesis = hypothesis;
-    candidate.is_refined = candidate.is_out = candidate.is_selected = false;
+    candidate.is_refined = candidate.may_climb = false;
+    candidate.is_out = candidate.is_selected = false;
     candidate.is_gain_known = false;
     candidate.num_blockers = 0;
     ++num_candidates_;
@@ -96,7 +98,8 @@ std::optional<size_t> ModelSelection::Best(const Input& input) {
       if (!best || candidate.gain > candidates_[*best].gain) best = i;
     }
     if (!best || candidates_[*best].gain < config_.min_explained_px()) return std::nullopt;
-    if (!config_.refine() || !RefineRivals(candidates_[*best], input)) return best;
+    if (!config_.refine()) return best;
+    if (!RefineRivals(candidates_[*best], input) && !Climb(*best, input)) return best;
   }
 }
 
@@ -112,17 +115,26 @@ bool ModelSelection::RefineRivals(const Candidate& best, const Input& input) {
         !ShareSpace(candidate.hypothesis.solid, space, config_.max_shared_volume())) {
       continue;
     }
-    RefineIfNoWorse(input.observation, input.observation, &candidate.hypothesis.solid,
-                    &candidate.evidence, input.buffers);
-    ForgetRivals(i);
+    const bool has_moved =
+        RefineIfNoWorse(input.observation, input.observation, &candidate.hypothesis.solid,
+                        &candidate.evidence, input.buffers);
     candidate.is_refined = true;
-    candidate.is_out = !IsPlausible(candidate.evidence);
-    candidate.is_gain_known = false;
-    candidate.num_blockers = 0;
-    for (size_t j : selected_) candidate.num_blockers += AreRivals(i, j);
+    candidate.may_climb = !has_moved && candidate.hypothesis.solid.shape == Shape::kCylinder;
+    if (has_moved) OnMoved(i);
     has_changed = true;
   }
   return has_changed;
+}
+
+// Lets a cylinder that no fit could refine climb; false when it need not.
+bool ModelSelection::Climb(size_t index, const Input& input) {
+  Candidate& candidate = candidates_[index];
+  if (!candidate.may_climb) return false;
+  candidate.may_climb = false;
+  ClimbCylinder(input.observation, &candidate.hypothesis.solid, &candidate.evidence,
+                &input.buffers->evidence);
+  OnMoved(index);
+  return true;
 }
 
 bool ModelSelection::IsFree(const Candidate& candidate) const {
@@ -139,11 +151,16 @@ bool ModelSelection::AreRivals(size_t a, size_t b) {
   return known != 0;
 }
 
-// Of a candidate that has moved.
-void ModelSelection::ForgetRivals(size_t index) {
+// Forgets what was known of a candidate in its old place.
+void ModelSelection::OnMoved(size_t index) {
+  Candidate& candidate = candidates_[index];
   for (size_t i = 0; i < num_candidates_; ++i) {
     are_rivals_[index * num_candidates_ + i] = are_rivals_[i * num_candidates_ + index] = kUnknown;
   }
+  candidate.is_out = !IsPlausible(candidate.evidence);
+  candidate.is_gain_known = false;
+  candidate.num_blockers = 0;
+  for (size_t i : selected_) candidate.num_blockers += AreRivals(index, i);
 }
 
 double ModelSelection::Gain(const Candidate& candidate) const {

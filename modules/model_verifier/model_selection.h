@@ -16,7 +16,8 @@ struct Candidate {
   Hypothesis hypothesis;
   RayEvidence evidence;
   bool is_refined = false;
-  bool is_out = false;  // does not take part
+  bool may_climb = false;  // a cylinder that no fit could refine
+  bool is_out = false;     // does not take part
   bool is_selected = false;
   bool is_gain_known = false;
   int num_blockers = 0;  // selected candidates in its space
@@ -49,10 +50,11 @@ class ModelSelection {
   bool Exchange(const Input& input);
   std::optional<size_t> Best(const Input& input);
   bool RefineRivals(const Candidate& best, const Input& input);
+  bool Climb(size_t index, const Input& input);
   bool IsPlausible(const RayEvidence& evidence) const;
   bool IsFree(const Candidate& candidate) const;
   bool AreRivals(size_t a, size_t b);
-  void ForgetRivals(size_t index);
+  void OnMoved(size_t index);
   double Gain(const Candidate& candidate) const;
   void Select(size_t index);
   void Release(size_t index);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "modules/model_verifier/confidence.h"
+#include "modules/model_verifier/cylinder_refinement.h"
 #include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/support_settling.h"
@@ -92,8 +93,11 @@ void ModelVerifier::Select(const std::vector<Hypothesis>& hypotheses,
     ObjectModel& object = objects->emplace_back();
     object.solid = candidate.hypothesis.solid;
     if (config_.refine()) {
-      RefineIfNoWorse(observed_.every_pixel(), observation, &object.solid, &candidate.evidence,
-                      &buffers_);
+      const bool has_moved = RefineIfNoWorse(observed_.every_pixel(), observation, &object.solid,
+                                             &candidate.evidence, &buffers_);
+      if (!has_moved && object.solid.shape == Shape::kCylinder) {
+        ClimbCylinder(observation, &object.solid, &candidate.evidence, &buffers_.evidence);
+      }
     }
     object.evidence = candidate.hypothesis.evidence;
     object.num_votes = candidate.hypothesis.num_votes;

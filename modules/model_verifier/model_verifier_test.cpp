@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "modules/model_verifier/cylinder_refinement.h"
 #include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/scene_renderer/scene_renderer.h"
@@ -227,20 +228,21 @@ TEST(RefineIfNoWorse, KeepsASolidThatAFitWouldLeadAstray) {
   EXPECT_NEAR(solid.radius(), truth.radius(), 0.006);
 }
 
-TEST(RefineIfNoWorse, FindsACylinderByItsTopWhereItsSideIsHidden) {
+TEST(ClimbCylinder, FindsACylinderByItsTopWhereItsSideIsHidden) {
   const RenderedScene scene = RenderText(
       "object { cylinder { radius_m: 0.04 height_m: 0.12 } y_m: 0.7 }"
-      "object { box { size_x_m: 0.2 size_y_m: 0.05 size_z_m: 0.09 } y_m: 0.62 }");
+      "object { box { size_x_m: 0.2 size_y_m: 0.05 size_z_m: 0.133 } y_m: 0.62 }");
   ObservedImage observed;
   observed.Set(scene.depth, scene.table);
   const Observation observation = observed.every_pixel();
   const Solid truth = scene.objects[0].solid;
   Solid solid = Changed(truth, {0.003, -0.002, 0}, {0.008, 0.008, 0});
   RayEvidence evidence = CastRays(solid, observation);
-  FitBuffers buffers;
-  RefineIfNoWorse(observation, observation, &solid, &evidence, &buffers);
+  RayEvidence buffer;
+  ClimbCylinder(observation, &solid, &evidence, &buffer);
   EXPECT_NEAR(solid.radius(), truth.radius(), 0.002);
   EXPECT_LT((solid.X_CO.translation() - truth.X_CO.translation()).norm(), 0.003);
+  EXPECT_EQ(evidence.Balance(), CastRays(solid, observation).Balance());
 }
 
 }  // namespace

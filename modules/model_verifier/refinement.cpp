@@ -12,24 +12,18 @@ Solid Refine(const Solid& solid, const Observation& observation, SurfacePoints* 
                                     : RefineCylinder(solid, observation, buffer);
 }
 
-void RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
+bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
                      RayEvidence* evidence, FitBuffers* buffers) {
   constexpr double kMaxLoss = 0.02;  // of the explained pixels: noise of the balance
-  const auto climb = [&] {
-    if (solid->shape == Shape::kCylinder) {
-      ClimbCylinder(judging, solid, evidence, &buffers->evidence);
-    }
-  };
   const Solid refined = Refine(*solid, fitted, &buffers->points);
+  if (refined.size == solid->size && refined.X_CO.matrix() == solid->X_CO.matrix()) return false;
   CastRays(refined, judging, &buffers->evidence);
   if (buffers->evidence.Balance() < evidence->Balance() - kMaxLoss * evidence->num_explained()) {
-    climb();
-    return;
+    return false;
   }
-  const bool has_moved = refined.size != solid->size;
   *solid = refined;
   std::swap(*evidence, buffers->evidence);
-  if (!has_moved) climb();
+  return true;
 }
 
 }  // namespace declutter

@@ -15,8 +15,8 @@ Solid Refine(const Solid& solid, const Observation& observation, SurfacePoints* 
 
 // Refines a solid on one observation where that does not lose what speaks for it on another: with
 // few points, or little of a cylinder's arc, a fit can go astray. evidence is what was observed of
-// the solid on the second, and is renewed with it.
-void RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
+// the solid on the second, and is renewed with it. False when the solid stayed as it was.
+bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
                      RayEvidence* evidence, FitBuffers* buffers);
 
 }  // namespace declutter
