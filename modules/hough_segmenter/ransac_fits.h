@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "modules/geometry/feature_cloud.h"
+#include "modules/geometry/random_index.h"
 #include "modules/hough_segmenter/cell_arrays.h"
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
 #include "modules/hough_segmenter/model_fits.h"
-#include "modules/hough_segmenter/random_index.h"
 
 namespace declutter {
 

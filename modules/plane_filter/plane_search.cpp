@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 
 #include "modules/geometry/image_components.h"
 #include "modules/geometry/marked_pixels.h"
+#include "modules/geometry/random_index.h"
 #include "modules/plane_filter/pixel_kernels.h"
 
 namespace declutter {
@@ -24,9 +24,8 @@ constexpr double kMaxRmsOfBand = 0.5;
 // Inliers among an inlier and its 8 neighbours.
 constexpr int kMinAmid = 7;
 
-// Uniform in [0, size), the same on every standard library.
-int Draw(std::mt19937_64* random, int size) {
-  return static_cast<int>((*random)() % static_cast<uint64_t>(size));
+int Draw(RandomIndex* random, int size) {
+  return static_cast<int>((*random)(static_cast<size_t>(size)));
 }
 
 std::optional<InversePlane> PlaneThrough(const InverseDepth& grid,
@@ -45,8 +44,7 @@ std::optional<InversePlane> PlaneThrough(const InverseDepth& grid,
 }
 
 // Three pixels near each other with a measurement; nullopt when the draw met a gap.
-std::optional<InversePlane> SamplePlane(const InverseDepth& grid, int reach,
-                                        std::mt19937_64* random) {
+std::optional<InversePlane> SamplePlane(const InverseDepth& grid, int reach, RandomIndex* random) {
   std::array<Eigen::Vector2i, 3> pixels;
   for (int i = 0; i < 3; ++i) {
     Eigen::Vector2i& pixel = pixels[static_cast<size_t>(i)];
@@ -88,7 +86,7 @@ void ListMeasured(const InverseDepth& grid, PixelList* list) {
 }
 
 std::optional<InversePlane> BestSample(const InverseDepth& grid, const PixelList& measured,
-                                       int num_samples, float band, std::mt19937_64* random) {
+                                       int num_samples, float band, RandomIndex* random) {
   std::optional<InversePlane> best;
   int best_count = 0;
   // Draws that meet a gap are repeated, but not for ever.
@@ -137,7 +135,7 @@ PixelMask CoherentRegion(const InverseDepth& image, const InversePlane& plane, f
 std::vector<PlaneCandidate> FindPlanes(const InverseDepth& grid, const PlaneFilterConfig& config) {
   std::vector<PlaneCandidate> candidates;
   if (grid.values.empty()) return candidates;
-  std::mt19937_64 random(config.seed());
+  RandomIndex random(config.seed());
   const float band = static_cast<float>(config.inlier_sigmas() * config.inverse_depth_sigma());
   const int min_pixels = std::max(
       3, static_cast<int>(config.min_plane_fraction() * static_cast<double>(grid.values.size())));
