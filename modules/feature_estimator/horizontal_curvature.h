@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "modules/feature_estimator/normals.h"
-#include "modules/feature_estimator/point_image.h"
+#include "modules/feature_estimator/sphere_window.h"
 
 namespace declutter {
 

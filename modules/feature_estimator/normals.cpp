@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "modules/feature_estimator/lanes.h"
+#include "modules/feature_estimator/sphere_window.h"
 
 namespace declutter {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "modules/feature_estimator/point_image.h"
+#include "modules/feature_estimator/sphere_window.h"
 
 namespace declutter {
 

@@ -114,17 +114,4 @@ PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min
   return points;
 }
 
-SphereWindow::SphereWindow(const PointImage& points, const float* x, size_t begin,
-                           const Neighborhood& neighborhood)
-    : fx_(points.fx), inverse_fy_(1 / points.fy), margin_(points.margin) {
-  for (size_t i = begin; i < begin + PointImage::kLanes; ++i) {
-    if (x[i] >= PointImage::kFar) continue;
-    slope_ = std::max(slope_, WindowSlope(points.x[i], points.y[i], points.z[i],
-                                          static_cast<float>(neighborhood.radius_m)));
-  }
-  num_rows_ = std::min(static_cast<int>(slope_ * points.fy), margin_);
-  stride_ = 1 + num_rows_ / (neighborhood.dense_px + 1);
-  num_rows_ = num_rows_ / stride_ * stride_;
-}
-
 }  // namespace declutter
