@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "modules/feature_estimator/lanes.h"
+#include "modules/feature_estimator/row_sharing.h"
 #include "modules/feature_estimator/sphere_window.h"
 
 namespace declutter {
@@ -165,7 +166,9 @@ CurvatureImage EstimateHorizontalCurvature(const PointImage& points, const Norma
     for (int i = 0; i < points.width; ++i) {
       const size_t begin = points.Index(i, j);
       if (curvature.side_x[begin] >= PointImage::kFar) continue;
-      FitBlock(sides, begin, window);
+      const bool is_taken = j % 2 == 1 && TakeRowAbove(points, curvature.side_x.data(), begin,
+                                                       window.neighborhood, {&curvature.kappa});
+      if (!is_taken) FitBlock(sides, begin, window);
       i += PointImage::kLanes - 1;
     }
   }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "modules/feature_estimator/lanes.h"
+#include "modules/feature_estimator/row_sharing.h"
 #include "modules/feature_estimator/sphere_window.h"
 
 namespace declutter {
@@ -171,7 +172,10 @@ NormalImage EstimateNormals(const PointImage& points, const Neighborhood& neighb
     for (int i = 0; i < points.width; ++i) {
       const size_t begin = points.Index(i, j);
       if (!points.HasPoint(begin)) continue;
-      EstimateBlock(points, begin, neighborhood, min_neighbors, &normals);
+      const bool is_taken =
+          j % 2 == 1 && TakeRowAbove(points, points.x.data(), begin, neighborhood,
+                                     {&normals.x, &normals.y, &normals.z, &normals.curvature});
+      if (!is_taken) EstimateBlock(points, begin, neighborhood, min_neighbors, &normals);
       i += PointImage::kLanes - 1;
     }
   }
