@@ -32,18 +32,39 @@ struct AngleBins {
   std::array<Lanes, kMaxBins> min_cosine, max_cosine;
 };
 
-// Slope of distance over angle through the origin, at most plane_radius_m.
-double Radius(const std::array<Lanes, kMaxBins>& cosine, size_t lane, const RsdParameters& rsd) {
-  double squared_angles = 0, angles_distances = 0;
+// Arc cosine of values in [0, 1] to 2e-8 rad: Abramowitz and Stegun, formula 4.4.46.
+DECLUTTER_LANES void ArcCosine(const Lanes& x, Lanes& angle_rad) {
+  constexpr float kCoefficients[] = {-0.0012624911F, 0.0066700901F, -0.0170881256F, 0.0308918810F,
+                                     -0.0501743046F, 0.0889789874F, -0.2145988016F, 1.5707963050F};
+  angle_rad = Lanes{};
+  for (const float coefficient : kCoefficients) angle_rad = angle_rad * x + coefficient;
+  float root[PointImage::kLanes];
+  StoreLanes(1.0F - x, root);
+  for (float& value : root) value = std::sqrt(value);
+  Lanes factor;
+  LoadLanes(root, factor);
+  angle_rad *= factor;
+}
+
+// Slope of distance over angle through the origin, at most plane_radius_m, times a correction.
+DECLUTTER_LANES void Radius(const Lanes* cosine, const RsdParameters& rsd, double correction,
+                            Lanes& radius_m) {
+  Lanes squared_angles{}, angles_distances{};
   for (int bin = 0; bin < rsd.num_bins; ++bin) {
-    const float value = cosine[static_cast<size_t>(bin)][lane];
-    if (value < 0 || value > 1) continue;
-    const double angle_rad = std::acos(static_cast<double>(value));
+    Lanes value = cosine[bin];
+    const LaneMask is_known = (value >= 0) & (value <= 1);
+    KeepLanes(is_known, value);
+    Lanes angle_rad;
+    ArcCosine(value, angle_rad);
+    KeepLanes(is_known, angle_rad);
     squared_angles += angle_rad * angle_rad;
-    angles_distances += angle_rad * (bin + 0.5) * rsd.radius_m / rsd.num_bins;
+    angles_distances += angle_rad * static_cast<float>((bin + 0.5) * rsd.radius_m / rsd.num_bins);
   }
-  if (squared_angles == 0) return rsd.plane_radius_m;
-  return std::min(angles_distances / squared_angles, rsd.plane_radius_m);
+  const float plane_radius_m = static_cast<float>(rsd.plane_radius_m);
+  const Lanes slope =
+      squared_angles > 0 ? angles_distances / squared_angles : plane_radius_m + Lanes{};
+  radius_m =
+      static_cast<float>(correction) * (slope < plane_radius_m ? slope : plane_radius_m + Lanes{});
 }
 
 // Cosines that rounding made larger than 1; kNoMinimum stays.
@@ -114,15 +135,21 @@ DECLUTTER_LANES void CollectAnglesInBins(const PointImage& points, const NormalI
   }
 }
 
-DECLUTTER_FOR_EACH_PROCESSOR void CollectAngles(const PointImage& points,
+DECLUTTER_FOR_EACH_PROCESSOR void EstimateBlock(const PointImage& points,
                                                 const NormalImage& normals, const float* known_x,
                                                 size_t begin, const RsdParameters& rsd,
-                                                AngleBins* bins) {
+                                                float* r_min) {
+  AngleBins bins;
   if (rsd.num_bins <= static_cast<int>(kUsualBins)) {
-    CollectAnglesInBins<kUsualBins>(points, normals, known_x, begin, rsd, bins);
+    CollectAnglesInBins<kUsualBins>(points, normals, known_x, begin, rsd, &bins);
   } else {
-    CollectAnglesInBins<kMaxBins>(points, normals, known_x, begin, rsd, bins);
+    CollectAnglesInBins<kMaxBins>(points, normals, known_x, begin, rsd, &bins);
   }
+  Lanes of_largest_angles, of_smallest_angles;
+  Radius(bins.min_cosine.data(), rsd, kLargestAngleCorrection, of_largest_angles);
+  Radius(bins.max_cosine.data(), rsd, kSmallestAngleCorrection, of_smallest_angles);
+  StoreLanes(of_largest_angles < of_smallest_angles ? of_largest_angles : of_smallest_angles,
+             r_min);
 }
 
 }  // namespace
@@ -137,19 +164,14 @@ RadiusImage EstimateMinimumRadius(const PointImage& points, const NormalImage& n
   for (size_t i = 0; i < points.x.size(); ++i) {
     image.known_x[i] = normals.IsKnown(i) ? points.x[i] : PointImage::kFar;
   }
-  AngleBins bins;
+  float r_min[PointImage::kLanes];
   for (int j = 0; j < points.height; ++j) {
     for (int i = 0; i < points.width; ++i) {
       const size_t begin = points.Index(i, j);
       if (!normals.IsKnown(begin)) continue;
-      CollectAngles(points, normals, image.known_x.data(), begin, rsd, &bins);
+      EstimateBlock(points, normals, image.known_x.data(), begin, rsd, r_min);
       for (size_t lane = 0; lane < PointImage::kLanes; ++lane) {
-        if (!normals.IsKnown(begin + lane)) continue;
-        const double of_largest_angles = Radius(bins.min_cosine, lane, rsd);
-        const double of_smallest_angles = Radius(bins.max_cosine, lane, rsd);
-        image.r_min[begin + lane] =
-            static_cast<float>(std::min(kLargestAngleCorrection * of_largest_angles,
-                                        kSmallestAngleCorrection * of_smallest_angles));
+        if (normals.IsKnown(begin + lane)) image.r_min[begin + lane] = r_min[lane];
       }
       i += PointImage::kLanes - 1;
     }
