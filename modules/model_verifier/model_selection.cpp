@@ -78,32 +78,57 @@ class Selection {
   }
 
  private:
-  // Gives each selected candidate's place to those that explain more when all others stay: some of
-  // the pixels that it was selected for, later ones explain as well, and two may fill the place of
-  // one better. True when one changed.
+  // Gives the place of selected candidates to those that explain more when all others stay: some of
+  // the pixels that they were selected for, later ones explain as well, two may fill the place of
+  // one better, and one that explains much may be kept out by some that explain little. True when
+  // one changed.
   bool Exchange() {
     bool has_changed = false;
     for (const size_t old : std::vector<size_t>(selected_)) {
-      Release(old);
-      const double old_gain = Gain(candidates_[old]);
-      double new_gain = 0;
-      std::vector<size_t> instead;
-      candidates_[old].is_out = true;
-      while (const auto best = Best()) {
-        // Every further object must pay for itself, or the parts of one would replace the whole.
-        new_gain += candidates_[*best].gain - (instead.empty() ? 0 : config_.min_explained_px());
-        instead.push_back(*best);
-        Select(*best);
-      }
-      candidates_[old].is_out = false;
-      if (new_gain > kMinImprovement * old_gain) {
-        has_changed = true;
+      has_changed |= candidates_[old].is_selected && Replace({old}, std::nullopt);
+    }
+    for (size_t i = 0; i < candidates_.size(); ++i) {
+      const Candidate& candidate = candidates_[i];
+      if (candidate.is_out || candidate.is_selected || candidate.num_blockers == 0 ||
+          Gain(candidate) < config_.min_explained_px()) {
         continue;
       }
-      for (size_t i : instead) Release(i);
-      Select(old);
+      has_changed |= Replace(BlockersOf(candidate), i);
     }
     return has_changed;
+  }
+
+  std::vector<size_t> BlockersOf(const Candidate& candidate) const {
+    std::vector<size_t> blockers;
+    for (const size_t i : selected_) {
+      if (AreRivals(candidate, candidates_[i])) blockers.push_back(i);
+    }
+    return blockers;
+  }
+
+  // Gives the place of selected candidates to others, beginning with `first`; takes that back and
+  // returns false unless they explain more.
+  bool Replace(const std::vector<size_t>& old, std::optional<size_t> first) {
+    double old_gain = 0;
+    for (const size_t i : old) {
+      Release(i);
+      old_gain += Gain(candidates_[i]);
+      candidates_[i].is_out = true;
+    }
+    double new_gain = 0;
+    std::vector<size_t> instead;
+    for (auto next = first ? first : Best(); next; next = Best()) {
+      new_gain += Gain(candidates_[*next]);
+      // Every further object must pay for itself, or the parts of one would replace the whole.
+      if (instead.size() >= old.size()) new_gain -= config_.min_explained_px();
+      instead.push_back(*next);
+      Select(*next);
+    }
+    for (const size_t i : old) candidates_[i].is_out = false;
+    if (new_gain > kMinImprovement * old_gain) return true;
+    for (const size_t i : instead) Release(i);
+    for (const size_t i : old) Select(i);
+    return false;
   }
 
   // The candidate that explains the most pixels nobody else explains; nothing when it explains too
