@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/hough_segmenter/quantile.h"
+
 namespace declutter {
 namespace {
 
 constexpr float kBin = 0.0005f;       // [m] of the distribution of heights
 constexpr float kValley = 0.5f;       // of the peak on either side
+constexpr int kWindow = 5;            // [px] over which noise is averaged
 constexpr float kBandOffset = 10.0f;  // [m] more than any step between neighbours
 
 // Numbers in bins of the heights from `low` on, smoothed by a Gaussian.
@@ -54,6 +57,36 @@ std::vector<size_t> Valleys(const std::vector<float>& values) {
   return valleys;
 }
 
+// Means over the pixels of the same patch in a window, first along rows, then along columns.
+std::vector<float> SmoothWithin(const ImageComponents& patches, const std::vector<float>& values,
+                                int columns, int rows) {
+  constexpr int kReach = kWindow / 2;
+  const auto along = [&](const std::vector<float>& in, int length, int stride) {
+    std::vector<float> out(in.size(), 0);
+    for (size_t i = 0; i < in.size(); ++i) {
+      if (patches.label[i] < 0) continue;
+      const int at = static_cast<int>(i) / stride % length;
+      float sum = 0;
+      int num = 0;
+      for (int k = -std::min(kReach, at); k <= std::min(kReach, length - 1 - at); ++k) {
+        const auto j = static_cast<size_t>(static_cast<int>(i) + k * stride);
+        if (patches.label[j] != patches.label[i]) continue;
+        sum += in[j];
+        ++num;
+      }
+      out[i] = sum / static_cast<float>(num);
+    }
+    return out;
+  };
+  return along(along(values, columns, 1), rows, columns);
+}
+
+// Standard deviation of values of which the absolute differences of pairs are given.
+float SigmaOf(std::vector<float>* differences) {
+  constexpr float kSigmaOfMedian = 1.4826f / 1.4142f;
+  return std::max(kBin, kSigmaOfMedian * Quantile(differences, 0.5));
+}
+
 }  // namespace
 
 std::vector<float> HeightsBetweenFaces(const std::vector<float>& heights, float sigma,
@@ -74,35 +107,39 @@ std::vector<float> HeightsBetweenFaces(const std::vector<float>& heights, float 
   return limits;
 }
 
-void SplitAtHeights(int columns, int rows, const std::vector<float>& heights,
-                    const std::vector<float>& sigmas, float max_step_m, int min_pixels,
-                    ImageComponents* patches) {
+void SplitAtHeights(int columns, int rows, const std::vector<float>& heights, float max_step_m,
+                    int min_pixels, ImageComponents* patches) {
+  const std::vector<float> smooth = SmoothWithin(*patches, heights, columns, rows);
   const size_t num_patches = patches->num_pixels.size();
   std::vector<std::vector<float>> patch_heights(num_patches);
-  std::vector<float> sigma_sums(num_patches, 0);
+  std::vector<std::vector<float>> differences(num_patches);
   for (size_t i = 0; i < heights.size(); ++i) {
     if (patches->label[i] < 0) continue;
     const auto label = static_cast<size_t>(patches->label[i]);
-    patch_heights[label].push_back(heights[i]);
-    sigma_sums[label] += sigmas[i];
+    patch_heights[label].push_back(smooth[i]);
+    if (i >= kWindow && patches->label[i - kWindow] == patches->label[i]) {
+      differences[label].push_back(std::abs(smooth[i] - smooth[i - kWindow]));
+    }
   }
   std::vector<std::vector<float>> limits(num_patches);
   bool is_split = false;
   for (size_t label = 0; label < num_patches; ++label) {
-    const size_t num = patch_heights[label].size();
-    if (num < 2 * static_cast<size_t>(min_pixels)) continue;
-    limits[label] = HeightsBetweenFaces(patch_heights[label],
-                                        sigma_sums[label] / static_cast<float>(num), min_pixels);
+    if (patch_heights[label].size() < 2 * static_cast<size_t>(min_pixels) ||
+        differences[label].empty()) {
+      continue;
+    }
+    limits[label] =
+        HeightsBetweenFaces(patch_heights[label], SigmaOf(&differences[label]), min_pixels);
     is_split |= !limits[label].empty();
   }
   if (!is_split) return;
   std::vector<uint8_t> mask(heights.size(), 0);
-  std::vector<float> banded = heights;
+  std::vector<float> banded = smooth;
   for (size_t i = 0; i < heights.size(); ++i) {
     if (patches->label[i] < 0) continue;
     mask[i] = 1;
     for (const float limit : limits[static_cast<size_t>(patches->label[i])]) {
-      if (heights[i] > limit) banded[i] += kBandOffset;
+      if (smooth[i] > limit) banded[i] += kBandOffset;
     }
   }
   *patches = LabelComponents(columns, rows, mask, banded, max_step_m);

@@ -12,10 +12,9 @@ namespace declutter {
 std::vector<float> HeightsBetweenFaces(const std::vector<float>& heights, float sigma, int min_num);
 
 // Parts the patches that join faces of different heights: noise bridges a step between neighbouring
-// pixels, but not one between whole faces. heights and sigmas [m], of each height's noise, are
-// row-major, columns * rows long. Patches are numbered anew.
-void SplitAtHeights(int columns, int rows, const std::vector<float>& heights,
-                    const std::vector<float>& sigmas, float max_step_m, int min_pixels,
-                    ImageComponents* patches);
+// pixels, but not one between whole faces. heights [m] are row-major, columns * rows long. Patches
+// are numbered anew.
+void SplitAtHeights(int columns, int rows, const std::vector<float>& heights, float max_step_m,
+                    int min_pixels, ImageComponents* patches);
 
 }  // namespace declutter

@@ -47,14 +47,14 @@ TEST(SplitAtHeights, PartsTwoFacesAcrossAStepThatNoiseBridges) {
     if (i % kColumns >= 20) heights[i] = 0.055f;
   }
   heights[10 * kColumns + 20] = 0.0525f;
-  const std::vector<float> sigmas(heights.size(), kSigma);
   const std::vector<uint8_t> mask(heights.size(), 1);
   ImageComponents patches = LabelComponents(kColumns, kRows, mask, heights, 0.006f);
   ASSERT_EQ(patches.num_pixels.size(), 1u);
-  SplitAtHeights(kColumns, kRows, heights, sigmas, 0.006f, 60, &patches);
+  SplitAtHeights(kColumns, kRows, heights, 0.006f, 60, &patches);
   ASSERT_EQ(patches.num_pixels.size(), 2u);
-  EXPECT_NEAR(patches.num_pixels[0], 400, 1);
-  EXPECT_NEAR(patches.num_pixels[1], 400, 1);
+  // The boundary may be off by a column.
+  EXPECT_NEAR(patches.num_pixels[0], 400, kRows);
+  EXPECT_NEAR(patches.num_pixels[1], 400, kRows);
 }
 
 }  // namespace

@@ -25,12 +25,6 @@ std::vector<Eigen::Vector2f> Hull(const std::vector<Eigen::Vector2f>& points) {
   return hull;
 }
 
-// [m] standard deviation of the height of a point, with the camera at camera_T.
-float HeightSigma(const TablePoint& point, const Eigen::Vector3d& camera_T) {
-  const Eigen::Vector3f ray_T = point.p_T - camera_T.cast<float>();
-  return point.sigma * std::abs(ray_T.z()) / ray_T.norm();
-}
-
 // Normals bend near edges, which keeps the rim of a face out of its patch: takes in pixels around
 // the patches, ring by ring, that are at the height of the nearest one inside.
 void GrowOverRims(const std::vector<uint8_t>& is_point, const std::vector<float>& heights,
@@ -92,7 +86,6 @@ std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points,
   std::vector<uint8_t> mask(num_pixels, 0);
   std::vector<uint8_t> is_point(num_pixels, 0);
   std::vector<float> heights(num_pixels, 0);
-  std::vector<float> sigmas(num_pixels, 0);
   const auto pixel = [&](const TablePoint& point) {
     return static_cast<size_t>(point.v / thinning * columns + point.u / thinning);
   };
@@ -100,10 +93,9 @@ std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points,
     mask[pixel(point)] = point.is_top();
     is_point[pixel(point)] = 1;
     heights[pixel(point)] = point.p_T.z();
-    sigmas[pixel(point)] = HeightSigma(point, X_TC.translation());
   }
   ImageComponents labels = LabelComponents(columns, rows, mask, heights, max_step_m);
-  SplitAtHeights(columns, rows, heights, sigmas, max_step_m, min_points, &labels);
+  SplitAtHeights(columns, rows, heights, max_step_m, min_points, &labels);
   for (int32_t& label : labels.label) {
     if (label >= 0 && labels.num_pixels[static_cast<size_t>(label)] < min_points) label = -1;
   }
