@@ -89,13 +89,23 @@ class Selection {
     }
     for (size_t i = 0; i < candidates_.size(); ++i) {
       const Candidate& candidate = candidates_[i];
-      if (candidate.is_out || candidate.is_selected || candidate.num_blockers == 0 ||
-          Gain(candidate) < config_.min_explained_px()) {
-        continue;
+      if (!candidate.is_out && !candidate.is_selected && IsWorthTrying(candidate)) {
+        has_changed |= Replace(BlockersOf(candidate), i);
       }
-      has_changed |= Replace(BlockersOf(candidate), i);
     }
     return has_changed;
+  }
+
+  // True for a candidate that explains what nobody else does, or about as much as all those
+  // together that keep it out.
+  bool IsWorthTrying(const Candidate& candidate) const {
+    constexpr double kMinShare = 0.5;
+    if (candidate.num_blockers == 0) return false;
+    if (Gain(candidate) >= config_.min_explained_px()) return true;
+    if (candidate.num_blockers == 1) return false;
+    double gain = 0;
+    for (const size_t i : BlockersOf(candidate)) gain += candidates_[i].gain;
+    return candidate.evidence.Balance() > kMinShare * gain;
   }
 
   std::vector<size_t> BlockersOf(const Candidate& candidate) const {
