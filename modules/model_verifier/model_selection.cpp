@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "modules/model_verifier/box_splitting.h"
 #include "modules/model_verifier/refinement.h"
 
 namespace declutter {
@@ -93,7 +94,55 @@ class Selection {
         has_changed |= Replace(BlockersOf(candidate), i);
       }
     }
+    for (const size_t old : std::vector<size_t>(selected_)) {
+      has_changed |= candidates_[old].is_selected && Split(old);
+    }
     return has_changed;
+  }
+
+  // Gives the place of a box with much free space inside to two side by side: one patch of the
+  // height of both may have been taken for one top face. True when that explains more.
+  bool Split(size_t old) {
+    constexpr double kMaxFreeShare = 0.05;  // of the explained pixels: beyond what noise makes
+    constexpr int kMaxFree = 60;            // [px] that edges leave
+    const Hypothesis hypothesis = candidates_[old].hypothesis;
+    const RayEvidence& evidence = candidates_[old].evidence;
+    const int num_free = evidence.num_violating + evidence.num_contradicting;
+    if (hypothesis.solid.shape != Shape::kBox || num_free < kMaxFree ||
+        num_free < kMaxFreeShare * evidence.num_explained()) {
+      return false;
+    }
+    const auto parts = SplitBox(hypothesis.solid, ExplainedPoints(candidates_[old]));
+    if (!parts) return false;
+    std::optional<size_t> first;
+    for (const Solid& part : *parts) {
+      Candidate candidate{hypothesis, CastRays(part, observation_)};
+      candidate.hypothesis.solid = part;
+      if (config_.refine()) {
+        RefineIfNoWorse(observation_, observation_, &candidate.hypothesis.solid,
+                        &candidate.evidence);
+      }
+      if (!IsPlausible(config_, candidate.evidence)) continue;
+      candidate.is_refined = true;
+      for (const size_t i : selected_) {
+        candidate.num_blockers += AreRivals(candidate, candidates_[i]);
+      }
+      candidates_.push_back(std::move(candidate));
+      const size_t added = candidates_.size() - 1;
+      if (!first || Gain(candidates_[added]) > Gain(candidates_[*first])) first = added;
+    }
+    return first && candidates_[*first].num_blockers <= 1 && Replace({old}, first);
+  }
+
+  std::vector<Eigen::Vector3d> ExplainedPoints(const Candidate& candidate) const {
+    const DepthImage& image = observation_.image;
+    const Eigen::Isometry3d X_OC = candidate.hypothesis.solid.X_CO.inverse();
+    std::vector<Eigen::Vector3d> points_O;
+    for (const auto& pixel : candidate.evidence.explained) {
+      points_O.push_back(
+          X_OC * image.PointAt(pixel.pixel % image.camera.width, pixel.pixel / image.camera.width));
+    }
+    return points_O;
   }
 
   // True for a candidate that explains what nobody else does, or about as much as all those
