@@ -23,7 +23,9 @@ Hypothesis MakeCylinder(const CircleModel& circle, int component) {
 const TopPatch* DiscOf(const CircleModel& circle, const std::vector<TopPatch>& tops) {
   const TopPatch* best = nullptr;
   for (const TopPatch& patch : tops) {
-    if (std::abs(patch.height - circle.z_max) > kTopTolerance) continue;
+    if (std::abs(patch.height - circle.z_max) > kTopTolerance || patch.height <= circle.z_min) {
+      continue;
+    }
     size_t num_inside = 0;
     for (const Eigen::Vector2f& p : patch.points) {
       num_inside += (p - circle.c).norm() < circle.r + 0.006f;

@@ -9,7 +9,7 @@ namespace declutter {
 namespace {
 
 constexpr float kMaxTopStep = 0.006f;  // [m] between neighbouring pixels of one top face
-constexpr int kMinTopPoints = 60;      // [px] of a top face
+constexpr int kMinTopPixels = 60;      // [px] of a top face
 
 // An independent stream of random numbers for each component of each frame.
 uint64_t ComponentSeed(uint64_t seed, int64_t utime, int component) {
@@ -51,6 +51,20 @@ void DropAlike(std::vector<Hypothesis>* hypotheses) {
   *hypotheses = std::move(kept);
 }
 
+// The tabletop at the pixels that have features: of many points, the message of the features may
+// leave out more than that of the tabletop.
+Tabletop AtFeatures(Tabletop tabletop, const FeatureCloud& features) {
+  tabletop.thinning = features.thinning;
+  return tabletop;
+}
+
+// Lets each point count as the pixels it stands for.
+void WeighBy(int num_pixels, std::vector<std::vector<SideCell>>* cells) {
+  for (std::vector<SideCell>& component : *cells) {
+    for (SideCell& cell : component) cell.weight *= static_cast<float>(num_pixels);
+  }
+}
+
 }  // namespace
 
 HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config, SideDetector detect)
@@ -58,6 +72,9 @@ HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config, SideDetector 
 
 HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
                                        const FeatureCloud& features) const {
+  if (features.thinning > tabletop.thinning) {
+    return Segment(AtFeatures(tabletop, features), features);
+  }
   HypothesisList list;
   list.header = features.header;
   list.mode = features.mode;
@@ -66,16 +83,19 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
 
   const Eigen::Isometry3d X_TC = TableFrame(list.planes[0]);
   const std::vector<TablePoint> points = TablePoints(tabletop, features, X_TC);
-  const std::vector<std::vector<SideCell>> cells =
+  std::vector<std::vector<SideCell>> cells =
       SideCells(points, features.num_components, static_cast<float>(config_.cell_side_m()),
                 static_cast<float>(config_.cell_height_m()));
+  const int num_pixels = tabletop.thinning * tabletop.thinning;
+  if (num_pixels > 1) WeighBy(num_pixels, &cells);
   SideDetections sides;
   for (int c = 0; c < features.num_components; ++c) {
     detect_(config_, list.mode, cells[static_cast<size_t>(c)], c,
             ComponentSeed(config_.seed(), features.header.utime, c), &sides);
   }
-  Surfaces surfaces{std::move(sides.faces), std::move(sides.arcs),
-                    FindTopPatches(points, tabletop, X_TC, kMaxTopStep, kMinTopPoints)};
+  Surfaces surfaces{
+      std::move(sides.faces), std::move(sides.arcs),
+      FindTopPatches(points, tabletop, X_TC, kMaxTopStep, kMinTopPixels / num_pixels)};
   MeasureExtents(points, &surfaces);
 
   const auto propose = [&list](const std::vector<Hypothesis>& hypotheses) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "modules/feature_estimator/feature_estimator.h"
 #include "modules/plane_filter/plane_filter.h"
 #include "modules/scene_renderer/scene_renderer.h"
@@ -13,7 +15,8 @@ namespace {
 
 RenderedScene RenderText(const std::string& text) { return Render(ParseScene(text, "scene"), 1); }
 
-HypothesisList Segment(const RenderedScene& scene, const std::string& mode) {
+// Of the features, those of every step-th row and column are used.
+HypothesisList Segment(const RenderedScene& scene, const std::string& mode, int step = 1) {
   DepthFrame frame;
   frame.header.utime = 33333;
   frame.header.frame = "scene";
@@ -21,8 +24,14 @@ HypothesisList Segment(const RenderedScene& scene, const std::string& mode) {
   FeatureEstimatorConfig features;
   features.set_mode(mode);
   const Tabletop tabletop = PlaneFilter(PlaneFilterConfig()).Filter(frame);
-  return HoughSegmenter(HoughSegmenterConfig())
-      .Segment(tabletop, FeatureEstimator(features).Estimate(tabletop));
+  FeatureCloud cloud = FeatureEstimator(features).Estimate(tabletop);
+  const auto is_left_out = [&](const FeaturePoint& point) {
+    return point.pixel % cloud.width % step != 0 || point.pixel / cloud.width % step != 0;
+  };
+  cloud.points.erase(std::remove_if(cloud.points.begin(), cloud.points.end(), is_left_out),
+                     cloud.points.end());
+  cloud.thinning = step;
+  return HoughSegmenter(HoughSegmenterConfig()).Segment(tabletop, cloud);
 }
 
 // [m] largest difference of centre and sizes of the hypothesis that is most like the true object.
@@ -80,6 +89,15 @@ TEST(HoughSegmenter, LeavesOpenHowFarAHiddenBottomReaches) {
                          std::abs(hypothesis.solid.radius() - 0.04) < 0.004;
   }
   EXPECT_TRUE(has_open_cylinder);
+}
+
+TEST(HoughSegmenter, ProposesSmallObjectsOfWhichEverySecondPixelHasFeatures) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.04 size_y_m: 0.05 size_z_m: 0.05 } x_m: -0.06 y_m: 0.65 }"
+      "object { cylinder { radius_m: 0.02 height_m: 0.08 } x_m: 0.06 y_m: 0.65 }");
+  const HypothesisList list = Segment(scene, "default", 2);
+  EXPECT_LT(SmallestError(list, scene.objects[0].solid), 0.012);
+  EXPECT_LT(SmallestError(list, scene.objects[1].solid), 0.012);
 }
 
 TEST(HoughSegmenter, GivesTheSameListForTheSameInput) {

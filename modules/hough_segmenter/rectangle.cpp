@@ -74,7 +74,9 @@ Rectangle Around(const TopPatch& patch, const Eigen::Vector2f& axis) {
 
 bool IsAttached(const Face& face, const TopPatch& patch) {
   const LineModel& line = face.model;
-  if (std::abs(line.z_max - patch.height) > kTopTolerance) return false;
+  if (std::abs(line.z_max - patch.height) > kTopTolerance || line.z_min >= patch.height) {
+    return false;
+  }
   int num_near = 0;
   for (const Eigen::Vector2f& p : patch.points) {
     const float depth = line.rho - line.n.dot(p);

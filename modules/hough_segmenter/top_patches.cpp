@@ -7,6 +7,7 @@
 #include "modules/geometry/convex_hull.h"
 #include "modules/geometry/image_components.h"
 #include "modules/hough_segmenter/free_edges.h"
+#include "modules/hough_segmenter/height_bands.h"
 #include "modules/hough_segmenter/quantile.h"
 
 namespace declutter {
@@ -94,6 +95,7 @@ std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points,
     heights[pixel(point)] = point.p_T.z();
   }
   ImageComponents labels = LabelComponents(columns, rows, mask, heights, max_step_m);
+  SplitAtHeights(columns, rows, heights, max_step_m, min_points, &labels);
   for (int32_t& label : labels.label) {
     if (label >= 0 && labels.num_pixels[static_cast<size_t>(label)] < min_points) label = -1;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "modules/model_verifier/box_splitting.h"
 #include "modules/model_verifier/cylinder_refinement.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/shared_space.h"
@@ -12,7 +13,21 @@ namespace {
 constexpr size_t kMaxObjects = 255;       // ids fit the label image
 constexpr int kMaxRounds = 3;             // of exchanges
 constexpr double kMinImprovement = 1.02;  // of the gain, for an exchange
+constexpr size_t kMaxParts = 64;          // of boxes that are split, in one frame
 constexpr int8_t kUnknown = -1;
+
+// The measured points on the surface of a solid, in O.
+std::vector<Eigen::Vector3d> ExplainedPoints(const Solid& solid, const RayEvidence& evidence,
+                                             const Observation& observation) {
+  const PixelGrid& grid = observation.grid;
+  const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
+  std::vector<Eigen::Vector3d> points_O;
+  for (const int32_t pixel : evidence.explained) {
+    const int u = grid.step * (pixel % grid.columns), v = grid.step * (pixel / grid.columns);
+    points_O.push_back(X_OC * observation.image.PointAt(u, v));
+  }
+  return points_O;
+}
 
 bool Overlap(const PixelWindow& a, const PixelWindow& b) {
   return a.u_begin < b.u_end && b.u_begin < a.u_end && a.v_begin < b.v_end && b.v_begin < a.v_end;
@@ -26,26 +41,26 @@ void ModelSelection::Run(const std::vector<Hypothesis>& hypotheses, const Observ
   num_explaining_.assign(static_cast<size_t>(observation.grid.num_pixels()), 0);
   selected_.clear();
   AddCandidates(hypotheses, input);
-  while (const auto best = Best(input)) Select(*best);
+  while (const auto best = Best(input)) {
+    candidates_[*best].selection_gain = candidates_[*best].gain;
+    Select(*best);
+  }
   for (int round = 0; round < kMaxRounds && Exchange(input); ++round) {
   }
 }
 
 void ModelSelection::AddCandidates(const std::vector<Hypothesis>& hypotheses, const Input& input) {
-  if (candidates_.size() < hypotheses.size()) candidates_.resize(hypotheses.size());
+  max_candidates_ = hypotheses.size() + kMaxParts;
+  if (candidates_.size() < max_candidates_) candidates_.resize(max_candidates_);
   num_candidates_ = 0;
   for (const Hypothesis& hypothesis : hypotheses) {
     Candidate& candidate = candidates_[num_candidates_];
     CastRays(hypothesis.solid, input.observation, &candidate.evidence);
     if (!IsPlausible(candidate.evidence)) continue;
-    candidate.hypothesis = hypothesis;
-    candidate.is_refined = candidate.may_climb = false;
-    candidate.is_out = candidate.is_selected = false;
-    candidate.is_gain_known = false;
-    candidate.num_blockers = 0;
+    candidate.Begin(hypothesis);
     ++num_candidates_;
   }
-  are_rivals_.assign(num_candidates_ * num_candidates_, kUnknown);
+  are_rivals_.assign(max_candidates_ * max_candidates_, kUnknown);
 }
 
 // True when the image speaks enough for a candidate for it to be considered at all.
@@ -56,32 +71,113 @@ bool ModelSelection::IsPlausible(const RayEvidence& evidence) const {
              config_.max_violating_share() * num_explained;
 }
 
-// Gives each selected candidate's place to those that explain more when all others stay: some of
-// the pixels that it was selected for, later ones explain as well, and two may fill the place of
-// one better. True when one changed.
+// Gives the place of selected candidates to those that explain more when all others stay: some of
+// the pixels that they were selected for, later ones explain as well, two may fill the place of one
+// better, and one that explains much may be kept out by some that explain little. True when one
+// changed.
 bool ModelSelection::Exchange(const Input& input) {
   bool has_changed = false;
   for (const size_t old : std::vector<size_t>(selected_)) {
-    Release(old);
-    const double old_gain = Gain(candidates_[old]);
-    double new_gain = 0;
-    std::vector<size_t> instead;
-    candidates_[old].is_out = true;
-    while (const auto best = Best(input)) {
-      // Every further object must pay for itself, or the parts of one would replace the whole.
-      new_gain += candidates_[*best].gain - (instead.empty() ? 0 : config_.min_explained_px());
-      instead.push_back(*best);
-      Select(*best);
-    }
-    candidates_[old].is_out = false;
-    if (new_gain > kMinImprovement * old_gain) {
-      has_changed = true;
-      continue;
-    }
-    for (size_t i : instead) Release(i);
-    Select(old);
+    has_changed |= candidates_[old].is_selected && Replace({old}, std::nullopt, input);
+  }
+  for (size_t i = 0; i < num_candidates_; ++i) {
+    if (IsWorthTrying(i)) has_changed |= Replace(BlockersOf(i), i, input);
+  }
+  for (const size_t old : std::vector<size_t>(selected_)) {
+    has_changed |= candidates_[old].is_selected && Split(old, input);
   }
   return has_changed;
+}
+
+// True for a candidate that explains what nobody else does, or about as much as all those together
+// that keep it out.
+bool ModelSelection::IsWorthTrying(size_t index) {
+  constexpr double kMinShare = 0.5;
+  Candidate& candidate = candidates_[index];
+  if (candidate.is_out || candidate.is_selected || candidate.num_blockers == 0) return false;
+  if (Gain(&candidate) >= config_.min_explained_px()) return true;
+  if (candidate.num_blockers == 1) return false;
+  double gain = 0;
+  for (const size_t i : BlockersOf(index)) gain += candidates_[i].selection_gain;
+  return candidate.evidence.Balance() > kMinShare * gain;
+}
+
+std::vector<size_t> ModelSelection::BlockersOf(size_t index) {
+  std::vector<size_t> blockers;
+  for (const size_t i : selected_) {
+    if (AreRivals(index, i)) blockers.push_back(i);
+  }
+  return blockers;
+}
+
+// Gives the place of selected candidates to others, beginning with `first`; takes that back and
+// returns false unless they explain more.
+bool ModelSelection::Replace(const std::vector<size_t>& old, std::optional<size_t> first,
+                             const Input& input) {
+  double old_gain = 0;
+  for (const size_t i : old) {
+    Release(i);
+    old_gain += Gain(&candidates_[i]);
+    candidates_[i].is_out = true;
+  }
+  double new_gain = 0;
+  std::vector<size_t> instead;
+  for (auto next = first ? first : Best(input); next; next = Best(input)) {
+    candidates_[*next].selection_gain = Gain(&candidates_[*next]);
+    new_gain += candidates_[*next].selection_gain;
+    // Every further object must pay for itself, or the parts of one would replace the whole.
+    if (instead.size() >= old.size()) new_gain -= config_.min_explained_px();
+    instead.push_back(*next);
+    Select(*next);
+  }
+  for (const size_t i : old) candidates_[i].is_out = false;
+  if (new_gain > kMinImprovement * old_gain) return true;
+  for (const size_t i : instead) Release(i);
+  for (const size_t i : old) Select(i);
+  return false;
+}
+
+// Gives the place of a box with much free space inside to two side by side: one patch of the height
+// of both may have been taken for one top face. True when that explains more.
+bool ModelSelection::Split(size_t old, const Input& input) {
+  constexpr double kMaxFreeShare = 0.05;  // of the explained pixels: beyond what noise makes
+  constexpr int kMaxFree = 60;            // [px] that edges leave
+  const Hypothesis hypothesis = candidates_[old].hypothesis;
+  const RayEvidence& evidence = candidates_[old].evidence;
+  const int num_free = evidence.num_violating + evidence.num_contradicting;
+  if (hypothesis.solid.shape != Shape::kBox || num_free < kMaxFree ||
+      num_free < kMaxFreeShare * evidence.num_explained()) {
+    return false;
+  }
+  const auto parts =
+      SplitBox(hypothesis.solid, ExplainedPoints(hypothesis.solid, evidence, input.observation));
+  if (!parts) return false;
+  std::optional<size_t> first;
+  for (const Solid& part : *parts) {
+    const auto added = AddPart(hypothesis, part, input);
+    if (added && (!first || Gain(&candidates_[*added]) > Gain(&candidates_[*first]))) first = added;
+  }
+  return first && candidates_[*first].num_blockers <= 1 && Replace({old}, first, input);
+}
+
+// A part of what was one hypothesis, as a candidate of its own; nothing when it is not plausible.
+std::optional<size_t> ModelSelection::AddPart(const Hypothesis& whole, const Solid& part,
+                                              const Input& input) {
+  if (num_candidates_ == max_candidates_) return std::nullopt;
+  const size_t added = num_candidates_;
+  Candidate& candidate = candidates_[added];
+  CastRays(part, input.observation, &candidate.evidence);
+  candidate.Begin(whole);
+  candidate.hypothesis.solid = part;
+  if (config_.refine()) {
+    RefineIfNoWorse(input.observation, input.observation, &candidate.hypothesis.solid,
+                    &candidate.evidence, input.buffers);
+  }
+  if (!IsPlausible(candidate.evidence)) return std::nullopt;
+  candidate.is_refined = true;
+  ++num_candidates_;
+  OnMoved(added);
+  return added;
 }
 
 // The candidate that explains the most pixels nobody else explains; nothing when it explains too
@@ -93,11 +189,9 @@ std::optional<size_t> ModelSelection::Best(const Input& input) {
     for (size_t i = 0; i < num_candidates_; ++i) {
       Candidate& candidate = candidates_[i];
       if (!IsFree(candidate)) continue;
-      if (!candidate.is_gain_known) candidate.gain = Gain(candidate);
-      candidate.is_gain_known = true;
-      if (!best || candidate.gain > candidates_[*best].gain) best = i;
+      if (!best || Gain(&candidate) > Gain(&candidates_[*best])) best = i;
     }
-    if (!best || candidates_[*best].gain < config_.min_explained_px()) return std::nullopt;
+    if (!best || Gain(&candidates_[*best]) < config_.min_explained_px()) return std::nullopt;
     if (!config_.refine()) return best;
     if (!RefineRivals(candidates_[*best], input) && !Climb(*best, input)) return best;
   }
@@ -142,11 +236,11 @@ bool ModelSelection::IsFree(const Candidate& candidate) const {
 }
 
 bool ModelSelection::AreRivals(size_t a, size_t b) {
-  int8_t& known = are_rivals_[a * num_candidates_ + b];
+  int8_t& known = are_rivals_[a * max_candidates_ + b];
   if (known == kUnknown) {
     known = ShareSpace(candidates_[a].hypothesis.solid, candidates_[b].hypothesis.solid,
                        config_.max_shared_volume());
-    are_rivals_[b * num_candidates_ + a] = known;
+    are_rivals_[b * max_candidates_ + a] = known;
   }
   return known != 0;
 }
@@ -155,7 +249,7 @@ bool ModelSelection::AreRivals(size_t a, size_t b) {
 void ModelSelection::OnMoved(size_t index) {
   Candidate& candidate = candidates_[index];
   for (size_t i = 0; i < num_candidates_; ++i) {
-    are_rivals_[index * num_candidates_ + i] = are_rivals_[i * num_candidates_ + index] = kUnknown;
+    are_rivals_[index * max_candidates_ + i] = are_rivals_[i * max_candidates_ + index] = kUnknown;
   }
   candidate.is_out = !IsPlausible(candidate.evidence);
   candidate.is_gain_known = false;
@@ -163,7 +257,14 @@ void ModelSelection::OnMoved(size_t index) {
   for (size_t i : selected_) candidate.num_blockers += AreRivals(index, i);
 }
 
-double ModelSelection::Gain(const Candidate& candidate) const {
+// Counted again only where others have come or gone.
+double ModelSelection::Gain(Candidate* candidate) const {
+  if (!candidate->is_gain_known) candidate->gain = CountGain(*candidate);
+  candidate->is_gain_known = true;
+  return candidate->gain;
+}
+
+double ModelSelection::CountGain(const Candidate& candidate) const {
   const RayEvidence& evidence = candidate.evidence;
   int64_t fit_sum = 0;
   for (size_t i = 0; i < evidence.explained.size(); ++i) {

@@ -20,8 +20,16 @@ struct Candidate {
   bool is_out = false;     // does not take part
   bool is_selected = false;
   bool is_gain_known = false;
-  int num_blockers = 0;  // selected candidates in its space
-  double gain = 0;       // [px] explained by it alone, less what speaks against it
+  int num_blockers = 0;       // selected candidates in its space
+  double gain = 0;            // [px] explained by it alone, less what speaks against it
+  double selection_gain = 0;  // [px] the same when it was chosen
+
+  // Makes this the candidate of another hypothesis; the evidence stays.
+  void Begin(const Hypothesis& begun) {
+    hypothesis = begun;
+    is_refined = may_climb = is_out = is_selected = is_gain_known = false;
+    num_blockers = 0;
+  }
 };
 
 // The set of solids that explains the image best: takes the hypothesis that explains the most
@@ -48,6 +56,11 @@ class ModelSelection {
 
   void AddCandidates(const std::vector<Hypothesis>& hypotheses, const Input& input);
   bool Exchange(const Input& input);
+  bool IsWorthTrying(size_t index);
+  std::vector<size_t> BlockersOf(size_t index);
+  bool Replace(const std::vector<size_t>& old, std::optional<size_t> first, const Input& input);
+  bool Split(size_t old, const Input& input);
+  std::optional<size_t> AddPart(const Hypothesis& whole, const Solid& part, const Input& input);
   std::optional<size_t> Best(const Input& input);
   bool RefineRivals(const Candidate& best, const Input& input);
   bool Climb(size_t index, const Input& input);
@@ -55,7 +68,8 @@ class ModelSelection {
   bool IsFree(const Candidate& candidate) const;
   bool AreRivals(size_t a, size_t b);
   void OnMoved(size_t index);
-  double Gain(const Candidate& candidate) const;
+  double Gain(Candidate* candidate) const;
+  double CountGain(const Candidate& candidate) const;
   void Select(size_t index);
   void Release(size_t index);
   void Mark(size_t index, int change);
@@ -63,7 +77,7 @@ class ModelSelection {
   ModelVerifierConfig config_;
   std::vector<uint8_t> num_explaining_;  // selected solids on each pixel of the grid
   std::vector<Candidate> candidates_;    // the first num_candidates_ are of this frame
-  size_t num_candidates_ = 0;
+  size_t num_candidates_ = 0, max_candidates_ = 0;
   std::vector<int8_t> are_rivals_;  // of each pair of candidates: 1, 0 or kUnknown
   std::vector<size_t> selected_;
 };
