@@ -1,6 +1,7 @@
 #include "launcher/logged_frames.h"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -9,7 +10,43 @@
 namespace declutter::launcher {
 namespace {
 
+using runtime::MessageLayout;
+
 constexpr size_t kMinMessage = 16;  // fingerprint and utime
+
+// Finds channels of which no message is of the type that is needed: no module could use them.
+class TypeCheck {
+ public:
+  explicit TypeCheck(const std::map<std::string, std::string>& types) {
+    for (const MessageLayout& layout : runtime::AllLayouts()) {
+      for (const auto& [channel, type] : types) {
+        if (type == layout.name()) layouts_[channel] = &layout;
+      }
+    }
+  }
+
+  void See(const runtime::LogEvent& event) {
+    const auto layout = layouts_.find(event.channel);
+    if (layout == layouts_.end()) return;
+    try {
+      layout->second->CheckType(event.message.data(), event.message.size());
+      faults_[event.channel].clear();
+      layouts_.erase(layout);
+    } catch (const std::runtime_error& error) {
+      faults_[event.channel] = error.what();
+    }
+  }
+
+  void ThrowFault(const std::string& log) const {
+    for (const auto& [channel, fault] : faults_) {
+      if (!fault.empty()) throw std::runtime_error(log + ": on " + channel + " is " + fault);
+    }
+  }
+
+ private:
+  std::map<std::string, const MessageLayout*> layouts_;  // of channels whose type was not met yet
+  std::map<std::string, std::string> faults_;            // by channel
+};
 
 void AddMessage(runtime::LogEvent event, LoggedFrame* frame) {
   auto& messages = frame->messages;
@@ -21,23 +58,36 @@ void AddMessage(runtime::LogEvent event, LoggedFrame* frame) {
 
 }  // namespace
 
-LoggedFrames::LoggedFrames(const std::string& path, const std::set<std::string>& channels)
-    : channels_(channels), reader_(path) {
-  runtime::EventLogReader reader(path);
-  while (const auto event = NextEvent(&reader)) {
-    ++num_to_come_[runtime::UtimeOf(event->message.data())];
-  }
-  if (!num_to_come_.empty()) return;
-  std::string names;
-  for (const std::string& channel : channels) names += " " + channel;
-  throw std::runtime_error(path + ": no message on" + names);
+LoggedFrames::LoggedFrames(const std::string& path, const std::map<std::string, std::string>& types,
+                           const Excerpt& part)
+    : path_(path), types_(types), log_(path) {
+  CountMessages(part);
 }
 
-std::optional<runtime::LogEvent> LoggedFrames::NextEvent(runtime::EventLogReader* reader) {
+void LoggedFrames::CountMessages(const Excerpt& part) {
+  TimedLog log(path_);
+  TypeCheck check(types_);
+  std::set<int64_t> left_out;
+  while (const auto timed = NextEvent(&log)) {
+    check.See(timed->event);
+    const int64_t utime = runtime::UtimeOf(timed->event.message.data());
+    const bool is_known = num_to_come_.count(utime) > 0;
+    if (!is_known && !part.Holds(timed->event.channel, timed->at_s)) left_out.insert(utime);
+    if (left_out.count(utime) == 0) ++num_to_come_[utime];
+  }
+  check.ThrowFault(path_);
+  if (!num_to_come_.empty()) return;
+  std::string names;
+  for (const auto& [channel, type] : types_) names += " " + channel;
+  throw std::runtime_error(path_ + ": no message " + (left_out.empty() ? "" : "in that part ") +
+                           "on" + names);
+}
+
+std::optional<TimedEvent> LoggedFrames::NextEvent(TimedLog* log) {
   try {
-    while (auto event = reader->Next()) {
-      if (channels_.count(event->channel) == 0 || event->message.size() < kMinMessage) continue;
-      return event;
+    while (auto timed = log->Next()) {
+      const bool is_wanted = types_.count(timed->event.channel) > 0;
+      if (is_wanted && timed->event.message.size() >= kMinMessage) return timed;
     }
   } catch (const std::runtime_error& error) {
     damage_ = error.what();
@@ -47,14 +97,17 @@ std::optional<runtime::LogEvent> LoggedFrames::NextEvent(runtime::EventLogReader
 
 std::optional<LoggedFrame> LoggedFrames::Next() {
   while (begun_.empty() || num_to_come_.at(begun_.front().utime) > 0) {
-    auto event = NextEvent(&reader_);
-    if (!event) return std::nullopt;
-    const int64_t utime = runtime::UtimeOf(event->message.data());
-    --num_to_come_.at(utime);
+    auto timed = NextEvent(&log_);
+    if (!timed) return std::nullopt;
+    const int64_t utime = runtime::UtimeOf(timed->event.message.data());
+    const auto to_come = num_to_come_.find(utime);
+    if (to_come == num_to_come_.end()) continue;
+    --to_come->second;
     auto frame = std::find_if(begun_.begin(), begun_.end(),
                               [&](const LoggedFrame& begun) { return begun.utime == utime; });
-    if (frame == begun_.end()) frame = begun_.insert(frame, {utime, {}});
-    AddMessage(std::move(*event), &*frame);
+    if (frame == begun_.end()) frame = begun_.insert(frame, {utime, 0.0, {}});
+    frame->at_s = timed->at_s;
+    AddMessage(std::move(timed->event), &*frame);
   }
   LoggedFrame frame = std::move(begun_.front());
   begun_.pop_front();

@@ -4,18 +4,19 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "launcher/excerpt.h"
+#include "launcher/timed_log.h"
 #include "launcher/wire.h"
-#include "modules/runtime/event_log.h"
 
 namespace declutter::launcher {
 
 // The messages of one frame in a log.
 struct LoggedFrame {
   int64_t utime = 0;  // [us] of the sensor
+  double at_s = 0.0;  // when the last of them was recorded, from the log's first event
   std::vector<Message> messages;
 };
 
@@ -23,9 +24,12 @@ struct LoggedFrame {
 // message is still to come, however long the log is.
 class LoggedFrames {
  public:
-  // channels: those to read. Reads through the log once. Throws std::runtime_error when it cannot
-  // be read or holds none of these channels.
-  LoggedFrames(const std::string& path, const std::set<std::string>& channels);
+  // types: of the messages, by the channels to read. A frame belongs to a part of the log when its
+  // first message does. Reads through the log once. Throws std::runtime_error when it cannot be
+  // read, when that part holds none of these channels, or when a channel holds nothing but another
+  // type, or version of its type.
+  LoggedFrames(const std::string& path, const std::map<std::string, std::string>& types,
+               const Excerpt& part);
 
   // A message sent again is there once. Nothing after the last.
   std::optional<LoggedFrame> Next();
@@ -34,11 +38,13 @@ class LoggedFrames {
   const std::string& damage() const { return damage_; }
 
  private:
-  std::optional<runtime::LogEvent> NextEvent(runtime::EventLogReader* reader);
+  std::optional<TimedEvent> NextEvent(TimedLog* log);
+  void CountMessages(const Excerpt& part);
 
-  std::set<std::string> channels_;
+  std::string path_;
+  std::map<std::string, std::string> types_;
   std::string damage_;
-  runtime::EventLogReader reader_;
+  TimedLog log_;
   std::map<int64_t, int> num_to_come_;  // messages of each frame not read yet
   std::deque<LoggedFrame> begun_;
 };

@@ -25,15 +25,16 @@ class LoggedFramesTest : public testing::Test {
   // Each event is a channel and the utime of its message.
   void WriteLog(const std::vector<std::pair<std::string, uint8_t>>& events) {
     runtime::EventLogWriter writer(path_);
+    int64_t time_us = 0;
     for (const auto& [channel, utime] : events) {
       runtime::Bytes message(16);
       message[15] = utime;
-      writer.Write({0, channel, message});
+      writer.Write({time_us += 100'000, channel, message});
     }
   }
 
   std::vector<std::string> ReadLog() {
-    LoggedFrames frames(path_, {"DEPTH", "COLOR"});
+    LoggedFrames frames(path_, {{"DEPTH", "depth_t"}, {"COLOR", "color_t"}}, part_);
     std::vector<std::string> texts;
     while (const auto frame = frames.Next()) {
       std::string text = std::to_string(frame->utime) + ":";
@@ -45,6 +46,7 @@ class LoggedFramesTest : public testing::Test {
   }
 
   std::string path_;
+  Excerpt part_;
   std::string damage_;
 };
 
@@ -68,7 +70,31 @@ TEST_F(LoggedFramesTest, ReadsADamagedLogUpToTheDamageAndSaysWhere) {
 
 TEST_F(LoggedFramesTest, RefusesALogWithoutTheChannels) {
   WriteLog({{"TABLETOP", 1}});
-  EXPECT_THROW(LoggedFrames(path_, {"DEPTH"}), std::runtime_error);
+  EXPECT_THROW(ReadLog(), std::runtime_error);
+}
+
+TEST_F(LoggedFramesTest, ReadsFramesThatBeginInAPart) {
+  WriteLog({{"DEPTH", 1}, {"DEPTH", 2}, {"COLOR", 1}, {"DEPTH", 3}, {"COLOR", 2}, {"DEPTH", 4}});
+  part_.start_s = 0.05;
+  part_.end_s = 0.35;
+  EXPECT_THAT(ReadLog(), ElementsAre("2: DEPTH COLOR", "3: DEPTH"));
+  part_.start_s = part_.end_s = 9.0;
+  EXPECT_THROW(ReadLog(), std::runtime_error);
+}
+
+TEST_F(LoggedFramesTest, NamesChannelAndTypeWhenAllMessagesAreOfAnotherVersion) {
+  WriteLog({{"DEPTH", 1}, {"TABLETOP", 1}});
+  const auto fault = [this](const std::map<std::string, std::string>& types) -> std::string {
+    try {
+      LoggedFrames(path_, types, {});
+      return "none";
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  };
+  EXPECT_THAT(fault({{"TABLETOP", "tabletop_t"}}),
+              HasSubstr("on TABLETOP is not a tabletop_t of this version (fingerprint 0x0000"));
+  EXPECT_EQ(fault({{"TABLETOP", "of_another_project_t"}}), "none");
 }
 
 }  // namespace

@@ -48,19 +48,19 @@ std::set<size_t> Select(const std::vector<WiredModule>& wiring, const std::strin
 
 }  // namespace
 
-ReplayPlan PlanReplay(const std::string& log, const std::string& from, ResolvedGraph* graph) {
+ReplayPlan PlanReplay(const CommandLine& line, ResolvedGraph* graph) {
   std::vector<ResolvedModule> kept;
-  for (const size_t index : Select(Wiring(*graph), from)) {
+  for (const size_t index : Select(Wiring(*graph), line.from)) {
     kept.push_back(std::move(graph->modules[index]));
   }
   graph->modules = std::move(kept);
-  graph->lossless = true;
+  graph->lossless = !line.speed;
   graph->logger.reset();
 
-  ReplayPlan plan{log, {}, {}};
+  ReplayPlan plan{line.replay, {}, {}, line.part, line.speed, line.loops};
   std::set<std::string> objects;
   for (const ResolvedModule& resolved : graph->modules) {
-    for (const Port& input : resolved.wiring.inputs) plan.fed.insert(input.channel);
+    for (const Port& input : resolved.wiring.inputs) plan.fed[input.channel] = input.type;
     for (const Port& output : resolved.wiring.outputs) {
       plan.awaited.insert(output.channel);
       if (output.type == object_list_t::getTypeName()) objects.insert(output.channel);

@@ -64,7 +64,7 @@ class FrameLedger {
 FrameSummary SummariseFrames(const std::string& log) {
   FrameLedger ledger;
   std::vector<std::string> damages =
-      ForEachEvent(log, [&](const LogEvent& event) { ledger.Add(event); });
+      ForEachEvent(log, [&](const LogEvent& event, double) { ledger.Add(event); });
   FrameSummary summary = ledger.Finish();
   summary.damages = std::move(damages);
   return summary;

@@ -3,10 +3,12 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "launcher/excerpt.h"
 #include "launcher/log_tool/frame_summary.h"
 #include "launcher/log_tool/log_scan.h"
 #include "launcher/log_tool/player.h"
@@ -17,6 +19,7 @@
 namespace declutter::log_tool {
 namespace {
 
+using launcher::ParseNumber;
 using runtime::ConfigError;
 
 constexpr int kFailure = 1;
@@ -43,31 +46,17 @@ constexpr const char* kHelp = R"(log_tool: looks into logs of LCM
 
 struct CommandLine {
   std::vector<std::string> operands;  // the verb first
-  Excerpt excerpt;
+  launcher::Excerpt excerpt;
   double speed = 1.0;
   bool loops = false;
   bool shows_graph = false;
   std::string url;
 };
 
-double Number(const std::string& text, double min) {
-  size_t end = 0;
-  double number = 0.0;
-  try {
-    number = std::stod(text, &end);
-  } catch (const std::logic_error&) {
-    end = 0;
-  }
-  if (end == 0 || end != text.size() || !(number >= min)) {
-    throw ConfigError("'" + text + "' is no number from " + std::to_string(min));
-  }
-  return number;
-}
-
-std::vector<std::string> Split(const std::string& list) {
+std::set<std::string> Split(const std::string& list) {
   std::istringstream words(list);
-  std::vector<std::string> split;
-  for (std::string word; std::getline(words, word, ',');) split.push_back(word);
+  std::set<std::string> split;
+  for (std::string word; std::getline(words, word, ',');) split.insert(word);
   return split;
 }
 
@@ -76,10 +65,10 @@ CommandLine Parse(const std::vector<std::string>& arguments) {
   CommandLine line;
   using Value = const std::string&;
   const std::map<std::string, std::function<void(Value)>> valued = {
-      {"--start", [&](Value value) { line.excerpt.start_s = Number(value, 0.0); }},
-      {"--end", [&](Value value) { line.excerpt.end_s = Number(value, 0.0); }},
+      {"--start", [&](Value value) { line.excerpt.start_s = ParseNumber(value, 0.0); }},
+      {"--end", [&](Value value) { line.excerpt.end_s = ParseNumber(value, 0.0); }},
       {"--channels", [&](Value value) { line.excerpt.channels = Split(value); }},
-      {"--speed", [&](Value value) { line.speed = Number(value, 0.001); }},
+      {"--speed", [&](Value value) { line.speed = ParseNumber(value, launcher::kMinSpeed); }},
       {"--url", [&](Value value) { line.url = value; }}};
   const std::map<std::string, bool*> plain = {{"--loop", &line.loops},
                                               {"--graph", &line.shows_graph}};
@@ -116,15 +105,13 @@ int Frames(const std::string& log) {
   return summary.damages.empty() ? 0 : kFailure;
 }
 
-int Cut(const std::string& log, const std::string& new_log, const Excerpt& excerpt) {
+int Cut(const std::string& log, const std::string& new_log, const launcher::Excerpt& excerpt) {
   runtime::EventLogWriter writer(new_log);
-  std::optional<int64_t> first_us;
   int64_t num_copied = 0;
-  const auto damages = ForEachEvent(log, [&](const runtime::LogEvent& event) {
-    if (!first_us) first_us = event.utime;
+  const auto damages = ForEachEvent(log, [&](const runtime::LogEvent& event, double at_s) {
     // What made it belongs to every part of a log.
     const bool is_info = event.channel == kRunInfo.name;
-    if (!is_info && !excerpt.Holds(event.channel, event.utime, *first_us)) return;
+    if (!is_info && !excerpt.Holds(event.channel, at_s)) return;
     writer.Write(event);
     num_copied += is_info ? 0 : 1;
   });
