@@ -80,6 +80,14 @@ std::string Line(const std::string& name, const ChannelSummary& channel) {
 
 std::vector<std::string> ForEachEvent(
     const std::string& path, const std::function<void(const LogEvent&, double at_s)>& handle) {
+  return ForEachEventWhile(path, [&](const LogEvent& event, double at_s) {
+    handle(event, at_s);
+    return true;
+  });
+}
+
+std::vector<std::string> ForEachEventWhile(
+    const std::string& path, const std::function<bool(const LogEvent&, double at_s)>& handle) {
   std::vector<std::string> damages;
   launcher::TimedLog log(path);
   for (;;) {
@@ -91,8 +99,7 @@ std::vector<std::string> ForEachEvent(
       if (!log.SkipDamage()) return damages;
       continue;
     }
-    if (!timed) return damages;
-    handle(timed->event, timed->at_s);
+    if (!timed || !handle(timed->event, timed->at_s)) return damages;
   }
 }
 

@@ -17,6 +17,11 @@ std::vector<std::string> ForEachEvent(
     const std::string& path,
     const std::function<void(const runtime::LogEvent&, double at_s)>& handle);
 
+// As much of it as handle returns true.
+std::vector<std::string> ForEachEventWhile(
+    const std::string& path,
+    const std::function<bool(const runtime::LogEvent&, double at_s)>& handle);
+
 // What a channel of a log holds.
 struct ChannelSummary {
   std::string type;  // "object_list_t"; "?" for one of another version or another project
