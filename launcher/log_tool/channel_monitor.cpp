@@ -25,7 +25,7 @@ void ChannelMonitor::Add(const launcher::Message& message, double at_s) {
 
 std::vector<std::string> ChannelMonitor::Lines(double now_s) const {
   char head[120];
-  std::snprintf(head, sizeof head, "  %-20s %-18s %8s %7s %8s %8s %7s", "channel", "type",
+  std::snprintf(head, sizeof head, "  %-17s %-17s %8s %6s %8s %7s %6s", "channel", "type",
                 "messages", "Hz", "kB/s", "kB", "age s");
   std::vector<std::string> lines = {head};
   for (const auto& [channel, traffic] : channels_) lines.push_back(Line(channel, traffic, now_s));
@@ -49,7 +49,7 @@ std::string ChannelMonitor::Line(const std::string& channel, const Traffic& traf
   const runtime::Bytes& latest = traffic.latest.bytes;
   const auto* layout = runtime::FindLayout(latest.data(), latest.size());
   char text[200];
-  std::snprintf(text, sizeof text, "%c %-20s %-18s %8lld %7.1f %8.1f %8.1f %7.1f",
+  std::snprintf(text, sizeof text, "%c %-17s %-17s %8lld %6.1f %8.1f %7.1f %6.1f",
                 channel == chosen_ ? '>' : ' ', channel.c_str(),
                 layout == nullptr ? "?" : layout->name().c_str(),
                 static_cast<long long>(traffic.num_messages), static_cast<double>(num) / kWindow_s,

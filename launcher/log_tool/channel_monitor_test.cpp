@@ -21,11 +21,10 @@ launcher::Message ObjectsAt(int64_t utime) {
 TEST(ChannelMonitor, TellsRateBandwidthAndAge) {
   ChannelMonitor monitor;
   for (int i = 0; i < 60; ++i) monitor.Add({"CAMERA", runtime::Bytes(1000)}, 0.1 * i);
-  EXPECT_THAT(monitor.Lines(5.9),
-              Contains(HasSubstr("CAMERA               ?                        "
-                                 "60    10.0     10.0      1.0     0.0")));
-  EXPECT_THAT(monitor.Lines(6.9), Contains(HasSubstr("60     5.0      5.0      1.0     1.0")));
-  EXPECT_THAT(monitor.Lines(9.9), Contains(HasSubstr("60     0.0      0.0      1.0     4.0")));
+  const std::string counts = "CAMERA            ?                       60";
+  EXPECT_THAT(monitor.Lines(5.9), Contains(HasSubstr(counts + "   10.0     10.0     1.0    0.0")));
+  EXPECT_THAT(monitor.Lines(6.9), Contains(HasSubstr(counts + "    5.0      5.0     1.0    1.0")));
+  EXPECT_THAT(monitor.Lines(9.9), Contains(HasSubstr(counts + "    0.0      0.0     1.0    4.0")));
 }
 
 TEST(ChannelMonitor, ShowsTheLatestMessageOfTheChosenChannel) {

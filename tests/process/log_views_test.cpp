@@ -9,6 +9,7 @@
 
 #include "modules/imaging/png_file.h"
 #include "tests/process/graph_run.h"
+#include "tests/process/terminal.h"
 
 namespace declutter {
 namespace {
@@ -96,6 +97,28 @@ TEST_F(LogViewsTest, ShowsWhatComesOverANetwork) {
   const Outcome outcome = Tool({"top", "--url", url, "--seconds", "3"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, ContainsRegex("OBJECTS +object_list_t +[1-9]"));
+}
+
+TEST_F(LogViewsTest, LetsAKeyChooseTheChannelAndEndIt) {
+  const Terminal terminal;
+  const tcflag_t before = terminal.Mode();
+  Launched top({Program("log_tool"), "top", log_, "--speed", "0.01"}, folder_, terminal.AsStdin());
+  ASSERT_TRUE(Eventually([&] { return terminal.Mode() != before; }));
+  for (const char key : {'j', ' ', 'n', 'n', 'q'}) terminal.Press(key);
+  const Outcome outcome = top.Wait();
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("  channel "));
+  EXPECT_EQ(terminal.Mode(), before);
+}
+
+TEST_F(LogViewsTest, LeavesTheTerminalAsItWasAfterASignal) {
+  const Terminal terminal;
+  const tcflag_t before = terminal.Mode();
+  Launched top({Program("log_tool"), "top", log_, "--speed", "0.01"}, folder_, terminal.AsStdin());
+  ASSERT_TRUE(Eventually([&] { return terminal.Mode() != before; }));
+  top.Signal(SIGINT);
+  EXPECT_EQ(top.Wait().code, 128 + SIGINT);
+  EXPECT_EQ(terminal.Mode(), before);
 }
 
 TEST_F(LogViewsTest, TellsWhatCannotBeShown) {

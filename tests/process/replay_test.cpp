@@ -1,11 +1,7 @@
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <sys/ioctl.h>
 #include <sys/resource.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +11,7 @@
 #include "modules/runtime/event_log.h"
 #include "tests/process/fake_graph.h"
 #include "tests/process/launched.h"
+#include "tests/process/terminal.h"
 
 namespace declutter {
 namespace {
@@ -94,20 +91,11 @@ TEST_F(ReplayOptionsTest, PlaysAgainAndAgainUntilASignal) {
 }
 
 TEST_F(ReplayOptionsTest, StopsAndStepsWhenAKeyIsPressed) {
-  const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-  ASSERT_TRUE(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);
-  const std::string name = ptsname(terminal);
-  termios before = {};
-  ASSERT_EQ(tcgetattr(terminal, &before), 0);
-  Launched launcher(Command({"--speed", "0.2"}), folder_, [&] {
-    setsid();
-    const int end = open(name.c_str(), O_RDWR);
-    ioctl(end, TIOCSCTTY, 0);
-    dup2(end, STDIN_FILENO);
-  });
-  const auto press = [terminal](char key) { EXPECT_EQ(write(terminal, &key, 1), 1); };
+  const Terminal terminal;
+  const tcflag_t before = terminal.Mode();
+  Launched launcher(Command({"--speed", "0.2"}), folder_, terminal.AsStdin());
   ASSERT_TRUE(Eventually([this] { return Answered().size() >= 3; }));
-  press(' ');
+  terminal.Press(' ');
   size_t num = 0;
   // Frames come every 0.1 s: when there is none for longer it stands still.
   ASSERT_TRUE(Eventually([&] {
@@ -115,16 +103,13 @@ TEST_F(ReplayOptionsTest, StopsAndStepsWhenAKeyIsPressed) {
     usleep(500'000);
     return Answered().size() == num;
   }));
-  press('n');
+  terminal.Press('n');
   EXPECT_TRUE(Eventually([&] { return Answered().size() == num + 1; }));
-  press(' ');
+  terminal.Press(' ');
   EXPECT_TRUE(Eventually([&] { return Answered().size() > num + 3; }));
   launcher.Signal(SIGTERM);
   EXPECT_EQ(launcher.Wait().code, 0) << ReadFile(folder_.Path("stderr"));
-  termios after = {};
-  ASSERT_EQ(tcgetattr(terminal, &after), 0);
-  EXPECT_EQ(after.c_lflag, before.c_lflag);
-  close(terminal);
+  EXPECT_EQ(terminal.Mode(), before);
 }
 
 TEST_F(ReplayOptionsTest, NamesChannelAndTypeOfALogOfAnotherVersion) {
