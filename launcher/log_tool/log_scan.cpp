@@ -122,6 +122,11 @@ std::string Text(const LogSummary& summary) {
                 "channel", "type", "messages", "Hz", "mean kB", "max gap s", "hash of all");
   std::string text = head;
   for (const auto& [name, channel] : summary.channels) text += Line(name, channel);
+  for (const auto& [name, channel] : summary.channels) {
+    if (channel.type != "?" || name == "LCM_SELF_TEST") continue;
+    text += "\n? is no type of this version\n";
+    break;
+  }
   if (!summary.versions.empty()) text += "\nmade by\n" + summary.versions;
   if (summary.num_backward > 0) {
     text += "\nthe clock went back " + std::to_string(summary.num_backward) + " times\n";

@@ -60,6 +60,7 @@ TEST_F(LogScanTest, TellsWhatALogHolds) {
   EXPECT_THAT(summary.damages, IsEmpty());
   EXPECT_THAT(Text(summary),
               HasSubstr("OBJECTS              object_list_t            11     10.0"));
+  EXPECT_THAT(Text(summary), HasSubstr("\n? is no type of this version\n"));
 }
 
 TEST_F(LogScanTest, CountsMessagesThatCannotBeDecodedAndTimesThatGoBack) {
