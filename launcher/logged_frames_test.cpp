@@ -68,6 +68,27 @@ TEST_F(LoggedFramesTest, ReadsADamagedLogUpToTheDamageAndSaysWhere) {
   EXPECT_THAT(damage_, HasSubstr("cut off after 1 events"));
 }
 
+TEST_F(LoggedFramesTest, LosesNoFrameWithoutATraceWhateverByteOfAHeaderIsChanged) {
+  WriteLog({{"DEPTH", 1}, {"COLOR", 1}, {"DEPTH", 2}, {"COLOR", 2}});
+  std::ifstream file(path_, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(file), {}};
+  constexpr size_t kHeaderBytes = 28;
+  const size_t event_bytes = whole.size() / 4;
+  for (size_t i = 0; i < whole.size(); ++i) {
+    if (i % event_bytes >= kHeaderBytes) continue;
+    std::string damaged = whole;
+    damaged[i] = static_cast<char>(~damaged[i]);
+    std::ofstream(path_, std::ios::binary | std::ios::trunc) << damaged;
+    try {
+      const bool is_whole =
+          ReadLog() == std::vector<std::string>{"1: DEPTH COLOR", "2: DEPTH COLOR"};
+      EXPECT_NE(is_whole, !damage_.empty()) << "byte " << i;
+    } catch (const std::runtime_error&) {  // nothing is left that could be read
+      EXPECT_LT(i, event_bytes);
+    }
+  }
+}
+
 TEST_F(LoggedFramesTest, RefusesALogWithoutTheChannels) {
   WriteLog({{"TABLETOP", 1}});
   EXPECT_THROW(ReadLog(), std::runtime_error);
