@@ -1,5 +1,6 @@
 #include "launcher/log_tool/decoded_frames.h"
 
+#include <iterator>
 #include <map>
 #include <stdexcept>
 
@@ -15,10 +16,20 @@ std::pair<const std::string, std::string> Entry(const Channel<Message>& channel)
   return {channel.name, Message::getTypeName()};
 }
 
-std::map<std::string, std::string> Types() {
-  return {Entry(kDepthFrame), Entry(kColorFrame), Entry(kTabletop),
-          Entry(kFeatures),   Entry(kHypotheses), Entry(kObjects)};
+// Of the channels of a part.
+std::map<std::string, std::string> TypesOf(const launcher::Excerpt& part) {
+  std::map<std::string, std::string> types = {Entry(kDepthFrame), Entry(kColorFrame),
+                                              Entry(kTabletop),   Entry(kFeatures),
+                                              Entry(kHypotheses), Entry(kObjects)};
+  for (auto type = types.begin(); type != types.end();) {
+    const bool is_wanted = part.channels.empty() || part.channels.count(type->first) > 0;
+    type = is_wanted ? std::next(type) : types.erase(type);
+  }
+  return types;
 }
+
+// A frame belongs to a part of the log with its first message, whatever channel that is on.
+launcher::Excerpt TimesOf(const launcher::Excerpt& part) { return {part.start_s, part.end_s, {}}; }
 
 // The header of the first part there is.
 FrameHeader HeaderOf(const DecodedFrame& frame) {
@@ -33,7 +44,7 @@ FrameHeader HeaderOf(const DecodedFrame& frame) {
 }  // namespace
 
 DecodedFrames::DecodedFrames(const std::string& log, const launcher::Excerpt& part)
-    : log_(log), frames_(log, Types(), part) {}
+    : log_(log), frames_(log, TypesOf(part), TimesOf(part)) {}
 
 std::optional<DecodedFrame> DecodedFrames::Next() {
   const auto logged = frames_.Next();

@@ -1,21 +1,21 @@
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <map>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "launcher/excerpt.h"
+#include "launcher/log_tool/cut.h"
 #include "launcher/log_tool/frame_export.h"
 #include "launcher/log_tool/frame_summary.h"
 #include "launcher/log_tool/log_scan.h"
 #include "launcher/log_tool/player.h"
 #include "launcher/log_tool/top.h"
-#include "lcmtypes/channels.h"
 #include "modules/runtime/config_error.h"
 #include "modules/runtime/suggestion.h"
 
@@ -34,14 +34,13 @@ constexpr const char* kHelp = R"(log_tool: looks into logs of LCM
       Channels with their types, rates, sizes and gaps, what made the log, and what is damaged;
       or the graph, with all parameters, that it was recorded from.
   log_tool frames LOG
-      Frames in, out and skipped of each module, and how long after the depth of a frame its
-      messages were recorded.
+      Frames in, out and skipped of each module, whether all messages that they published are in the
+      log, and how long after the depth of a frame its messages were recorded.
   log_tool cut LOG NEW_LOG [PART]
       Copies a part of a log, without what is damaged.
   log_tool play LOG [PART] [--speed X] [--loop] [--url URL]
       Publishes it as it was recorded. In a terminal the space bar stops it and lets it go on; n
       gives the next message while it is stopped.
-
   log_tool top [LOG [PART] [--speed X]] [--url URL] [--channel CHANNEL] [--seconds S]
       Channels with their rates, and what the latest message on one of them says: live, or of a log
       that is played. In a terminal j and k choose the channel and q ends it; else what there is
@@ -112,40 +111,14 @@ int Info(const std::string& log, bool shows_graph) {
   if (shows_graph && summary.graph.empty()) {
     throw std::runtime_error(log + ": does not say what made it");
   }
-  std::cout << (shows_graph ? summary.graph : Text(summary)) << std::flush;
+  std::cout << (shows_graph ? summary.graph : Text(summary));
   return summary.damages.empty() ? 0 : kFailure;
 }
 
 int Frames(const std::string& log) {
   const FrameSummary summary = SummariseFrames(log);
-  std::cout << Text(summary) << std::flush;
+  std::cout << Text(summary);
   return summary.damages.empty() ? 0 : kFailure;
-}
-
-int CopyTo(runtime::EventLogWriter* writer, const std::string& log,
-           const launcher::Excerpt& excerpt) {
-  int64_t num_copied = 0;
-  const auto damages = ForEachEvent(log, [&](const runtime::LogEvent& event, double at_s) {
-    // What made it belongs to every part of a log.
-    const bool is_info = event.channel == kRunInfo.name;
-    if (!is_info && !excerpt.Holds(event.channel, at_s)) return;
-    writer->Write(event);
-    num_copied += is_info ? 0 : 1;
-  });
-  for (const std::string& damage : damages) std::cerr << "log_tool: " << damage << "\n";
-  if (num_copied == 0) throw std::runtime_error(log + ": no message in that part");
-  return damages.empty() ? 0 : kFailure;
-}
-
-int Cut(const std::string& log, const std::string& new_log, const launcher::Excerpt& excerpt) {
-  runtime::EventLogWriter writer(new_log);
-  try {
-    return CopyTo(&writer, log, excerpt);
-  } catch (const std::runtime_error&) {
-    std::error_code ignored;
-    std::filesystem::remove(new_log, ignored);  // not the part that was wanted
-    throw;
-  }
 }
 
 std::string UrlOf(const CommandLine& line) {
@@ -222,7 +195,9 @@ int Act(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   using namespace declutter;
   try {
-    return log_tool::Act({argv + 1, argv + argc});
+    const int code = log_tool::Act({argv + 1, argv + argc});
+    if (std::cout.flush()) return code;
+    throw std::runtime_error("stdout cannot be written");
   } catch (const runtime::ConfigError& error) {
     std::cerr << "log_tool: " << error.what() << "\n";
     return log_tool::kBadCommand;
