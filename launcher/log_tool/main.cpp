@@ -16,6 +16,7 @@
 #include "launcher/log_tool/log_scan.h"
 #include "launcher/log_tool/player.h"
 #include "launcher/log_tool/top.h"
+#include "launcher/network.h"
 #include "modules/runtime/config_error.h"
 #include "modules/runtime/suggestion.h"
 
@@ -122,9 +123,11 @@ int Frames(const std::string& log) {
 }
 
 std::string UrlOf(const CommandLine& line) {
-  if (!line.url.empty()) return line.url;
   const char* environment_url = std::getenv("LCM_DEFAULT_URL");
-  return environment_url != nullptr ? environment_url : "udpm://239.255.76.67:7667?ttl=0";
+  std::string url =
+      environment_url != nullptr ? environment_url : "udpm://239.255.76.67:7667?ttl=0";
+  if (!line.url.empty()) url = line.url;
+  return launcher::WithReceiveBuffer(url);
 }
 
 int Top(const CommandLine& line) {
