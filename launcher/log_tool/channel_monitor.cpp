@@ -20,7 +20,8 @@ void ChannelMonitor::Add(const launcher::Message& message, double at_s) {
   while (traffic.recent.front().first <= at_s - kWindow_s) traffic.recent.pop_front();
   traffic.latest = message;
   traffic.latest_s = at_s;
-  if (chosen_.empty()) chosen_ = message.channel;
+  const bool is_ours = runtime::FindLayout(message.bytes.data(), message.bytes.size()) != nullptr;
+  if (chosen_.empty() && is_ours) chosen_ = message.channel;
 }
 
 std::vector<std::string> ChannelMonitor::Lines(double now_s) const {

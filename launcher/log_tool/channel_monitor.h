@@ -20,7 +20,8 @@ class ChannelMonitor {
   // size and age of the latest one; then the fields of the latest one on the chosen channel.
   std::vector<std::string> Lines(double now_s) const;
 
-  // The channel next to the chosen one, step lines down; the first when none was chosen.
+  // The channel next to the chosen one, step lines down. Until then it is the first that carries
+  // one of our types.
   void Choose(int step);
   void Choose(const std::string& channel) { chosen_ = channel; }
 
