@@ -18,16 +18,18 @@ namespace {
 constexpr double kMinPeriod_s = 0.01;  // a recorder that listens queues no more than 30 messages
 constexpr double kResultLimit_s = 3.0;
 constexpr int kMaxTries = 5;
-constexpr size_t kMinMessage = 16;  // fingerprint and utime
+constexpr int kFramesPerStatus = 64;  // far less than what waits in a module at most
+constexpr size_t kMinMessage = 16;    // fingerprint and utime
 
 }  // namespace
 
 LogFeeder::LogFeeder(const ReplayPlan& plan, Wire* wire)
     : plan_(plan),
-      frames_(plan.log, plan.fed, plan.part),
+      frames_(plan.log, plan.fed, plan.needed, plan.part),
       wire_(wire),
       timer_fd_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
   if (timer_fd_ < 0) throw std::runtime_error("no descriptors left");
+  if (!frames_.left_out().empty()) std::cerr << "launcher: " << frames_.left_out() << "\n";
 }
 
 LogFeeder::~LogFeeder() { close(timer_fd_); }
@@ -51,7 +53,9 @@ void LogFeeder::OnTurn(double now_s) {
   if (pace_->stands_still()) pace_->StepTo(next_->at_s);
   steps_ = false;
   frame_ = std::exchange(next_, std::nullopt);
-  missing_ = plan_.awaited;
+  const bool has_status_only = plan_.awaited.count(kModuleStatus.name) > 0;
+  const bool is_awaited = !has_status_only || ++num_frames_ % kFramesPerStatus == 0;
+  missing_ = is_awaited ? plan_.awaited : std::set<std::string>{};
   num_sent_ = 0;
   Send(now_s);
 }
@@ -95,7 +99,7 @@ void LogFeeder::EndPass(double now_s) {
   }
   is_ending_ = !plan_.loops;
   if (is_ending_) return;
-  frames_ = LoggedFrames(plan_.log, plan_.fed, plan_.part);
+  frames_ = LoggedFrames(plan_.log, plan_.fed, plan_.needed, plan_.part);
   Begin(now_s);
 }
 

@@ -17,6 +17,7 @@ namespace declutter::launcher {
 struct ReplayPlan {
   std::string log;
   std::map<std::string, std::string> fed;  // channels published from the log, and their types
+  std::set<std::string> needed;            // of these: without them a frame has no result
   std::set<std::string> awaited;           // results that tell that a frame is through
   Excerpt part;
   std::optional<double> speed;  // nothing: without loss, the next frame after the one before
@@ -24,10 +25,11 @@ struct ReplayPlan {
 };
 
 // Publishes a log, frame by frame. Without loss: the next frame when the results of the one before
-// have come, a frame without results again. At a speed: in the log's time, whatever the modules
-// miss. In a terminal the space bar stops it and lets it go on, and n gives the next frame while it
-// is stopped. Ends with 0 at the end of the log, with 1 when a frame that must not be lost has had
-// no result or the log is damaged.
+// have come, a frame without results again; where results are seen in the status of a module alone,
+// which comes once a second, some frames at once. At a speed: in the log's time, whatever the
+// modules miss. In a terminal the space bar stops it and lets it go on, and n gives the next frame
+// while it is stopped. Ends with 0 at the end of the log, with 1 when a frame that must not be lost
+// has had no result or the log is damaged.
 class LogFeeder : public Process {
  public:
   // Throws as LoggedFrames does. wire is kept and must hear what is awaited.
@@ -63,7 +65,8 @@ class LogFeeder : public Process {
   std::optional<LoggedFrame> frame_;  // on its way
   std::set<std::string> missing_;     // its results that have not come
   double sent_s_ = 0.0;
-  int num_sent_ = 0;
+  int num_sent_ = 0;  // how often it was sent
+  int num_frames_ = 0;
   int code_ = 0;
   bool steps_ = false;  // once, while it stands still
   bool is_started_ = false;

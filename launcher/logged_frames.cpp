@@ -1,6 +1,7 @@
 #include "launcher/logged_frames.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -59,28 +60,48 @@ void AddMessage(runtime::LogEvent event, LoggedFrame* frame) {
 }  // namespace
 
 LoggedFrames::LoggedFrames(const std::string& path, const std::map<std::string, std::string>& types,
-                           const Excerpt& part)
+                           const std::set<std::string>& needed, const Excerpt& part)
     : path_(path), types_(types), log_(path) {
-  CountMessages(part);
+  CountMessages(needed, part);
+  LeaveOutIncomplete();
 }
 
-void LoggedFrames::CountMessages(const Excerpt& part) {
+void LoggedFrames::CountMessages(const std::set<std::string>& needed, const Excerpt& part) {
   TimedLog log(path_);
   TypeCheck check(types_);
-  std::set<int64_t> left_out;
+  std::set<int64_t> elsewhere;
   while (const auto timed = NextEvent(&log)) {
+    const std::string& channel = timed->event.channel;
     check.See(timed->event);
     const int64_t utime = runtime::UtimeOf(timed->event.message.data());
-    const bool is_known = num_to_come_.count(utime) > 0;
-    if (!is_known && !part.Holds(timed->event.channel, timed->at_s)) left_out.insert(utime);
-    if (left_out.count(utime) == 0) ++num_to_come_[utime];
+    const bool is_known = to_come_.count(utime) > 0;
+    if (!is_known && !part.Holds(channel, timed->at_s)) elsewhere.insert(utime);
+    if (elsewhere.count(utime) > 0) continue;
+    if (!is_known) to_come_[utime].lacking = needed;
+    ++to_come_[utime].num_messages;
+    to_come_[utime].lacking.erase(channel);
   }
   check.ThrowFault(path_);
-  if (!num_to_come_.empty()) return;
+  if (!to_come_.empty()) return;
   std::string names;
   for (const auto& [channel, type] : types_) names += " " + channel;
-  throw std::runtime_error(path_ + ": no message " + (left_out.empty() ? "" : "in that part ") +
+  throw std::runtime_error(path_ + ": no message " + (elsewhere.empty() ? "" : "in that part ") +
                            "on" + names);
+}
+
+void LoggedFrames::LeaveOutIncomplete() {
+  const size_t num_frames = to_come_.size();
+  std::set<std::string> lacking;
+  for (auto frame = to_come_.begin(); frame != to_come_.end();) {
+    lacking.insert(frame->second.lacking.begin(), frame->second.lacking.end());
+    frame = frame->second.lacking.empty() ? std::next(frame) : to_come_.erase(frame);
+  }
+  if (lacking.empty()) return;
+  std::string names;
+  for (const std::string& channel : lacking) names += (names.empty() ? "" : " or ") + channel;
+  left_out_ = std::to_string(num_frames - to_come_.size()) + " of " + std::to_string(num_frames) +
+              " frames of the log have no message on " + names;
+  if (to_come_.empty()) throw std::runtime_error(path_ + ": " + left_out_);
 }
 
 std::optional<TimedEvent> LoggedFrames::NextEvent(TimedLog* log) {
@@ -96,13 +117,13 @@ std::optional<TimedEvent> LoggedFrames::NextEvent(TimedLog* log) {
 }
 
 std::optional<LoggedFrame> LoggedFrames::Next() {
-  while (begun_.empty() || num_to_come_.at(begun_.front().utime) > 0) {
+  while (begun_.empty() || to_come_.at(begun_.front().utime).num_messages > 0) {
     auto timed = NextEvent(&log_);
     if (!timed) return std::nullopt;
     const int64_t utime = runtime::UtimeOf(timed->event.message.data());
-    const auto to_come = num_to_come_.find(utime);
-    if (to_come == num_to_come_.end()) continue;
-    --to_come->second;
+    const auto to_come = to_come_.find(utime);
+    if (to_come == to_come_.end()) continue;
+    --to_come->second.num_messages;
     auto frame = std::find_if(begun_.begin(), begun_.end(),
                               [&](const LoggedFrame& begun) { return begun.utime == utime; });
     if (frame == begun_.end()) frame = begun_.insert(frame, {utime, 0.0, {}});

@@ -34,7 +34,7 @@ class LoggedFramesTest : public testing::Test {
   }
 
   std::vector<std::string> ReadLog() {
-    LoggedFrames frames(path_, {{"DEPTH", "depth_t"}, {"COLOR", "color_t"}}, part_);
+    LoggedFrames frames(path_, {{"DEPTH", "depth_t"}, {"COLOR", "color_t"}}, needed_, part_);
     std::vector<std::string> texts;
     while (const auto frame = frames.Next()) {
       std::string text = std::to_string(frame->utime) + ":";
@@ -42,12 +42,15 @@ class LoggedFramesTest : public testing::Test {
       texts.push_back(text);
     }
     damage_ = frames.damage();
+    left_out_ = frames.left_out();
     return texts;
   }
 
   std::string path_;
+  std::set<std::string> needed_;
   Excerpt part_;
   std::string damage_;
+  std::string left_out_;
 };
 
 TEST_F(LoggedFramesTest, CollectsTheMessagesOfAFrameAcrossThoseOfOthers) {
@@ -103,11 +106,22 @@ TEST_F(LoggedFramesTest, ReadsFramesThatBeginInAPart) {
   EXPECT_THROW(ReadLog(), std::runtime_error);
 }
 
+TEST_F(LoggedFramesTest, LeavesOutFramesThatLackWhatIsNeededAndSaysSo) {
+  WriteLog({{"DEPTH", 1}, {"DEPTH", 2}, {"COLOR", 2}, {"COLOR", 3}});
+  EXPECT_THAT(ReadLog(), ElementsAre("1: DEPTH", "2: DEPTH COLOR", "3: COLOR"));
+  EXPECT_THAT(left_out_, IsEmpty());
+  needed_ = {"DEPTH", "COLOR"};
+  EXPECT_THAT(ReadLog(), ElementsAre("2: DEPTH COLOR"));
+  EXPECT_EQ(left_out_, "2 of 3 frames of the log have no message on COLOR or DEPTH");
+  needed_ = {"TABLETOP"};
+  EXPECT_THROW(ReadLog(), std::runtime_error);
+}
+
 TEST_F(LoggedFramesTest, NamesChannelAndTypeWhenAllMessagesAreOfAnotherVersion) {
   WriteLog({{"DEPTH", 1}, {"TABLETOP", 1}});
   const auto fault = [this](const std::map<std::string, std::string>& types) -> std::string {
     try {
-      LoggedFrames(path_, types, {});
+      LoggedFrames(path_, types, {}, {});
       return "none";
     } catch (const std::runtime_error& error) {
       return error.what();

@@ -44,7 +44,7 @@ FrameHeader HeaderOf(const DecodedFrame& frame) {
 }  // namespace
 
 DecodedFrames::DecodedFrames(const std::string& log, const launcher::Excerpt& part)
-    : log_(log), frames_(log, TypesOf(part), TimesOf(part)) {}
+    : log_(log), frames_(log, TypesOf(part), {}, TimesOf(part)) {}
 
 std::optional<DecodedFrame> DecodedFrames::Next() {
   const auto logged = frames_.Next();

@@ -111,6 +111,22 @@ TEST_F(ReplayTest, JoinsTheMessagesOfAFrame) {
   EXPECT_THAT(utimes_, ElementsAre(2, 1));
 }
 
+TEST_F(ReplayTest, LeavesOutFramesThatWereSkippedWhenTheLogWasMade) {
+  std::vector<LogEvent> events;
+  for (int i = 1; i <= 500; ++i) {
+    events.push_back({i, "TABLETOP", EncodedAt<tabletop_t>(i)});
+    if (i % 100 == 0) events.push_back({i, "FEATURES", EncodedAt<feature_cloud_t>(i)});
+  }
+  WriteLog(events);
+  bus_.SubscribeJoined(kTabletop, kFeatures, [this](const tabletop_t& tabletop, const auto&) {
+    utimes_.push_back(tabletop.utime);
+  });
+  Replay(in_, "", &shell_);
+  EXPECT_THAT(utimes_, ElementsAre(100, 200, 300, 400, 500));
+  EXPECT_EQ(shell_.num_left_out(), 495);
+  EXPECT_FALSE(shell_.failed());
+}
+
 TEST_F(ReplayTest, ProcessesEveryCompleteEventOfALogThatIsCutOff) {
   WriteLog({{1, "TABLETOP", EncodedAt<tabletop_t>(1)}, {2, "TABLETOP", EncodedAt<tabletop_t>(2)}});
   std::filesystem::resize_file(in_, std::filesystem::file_size(in_) - 1);
