@@ -52,12 +52,12 @@ void TimedLog::Advance() {
 int64_t TimedLog::GapBefore(const runtime::LogEvent& event) {
   const int64_t time_us = next_ ? Median(*last_us_, event.utime, next_->utime) : event.utime;
   int64_t gap_us = Gap(*last_us_, time_us);
-  last_us_ = time_us;
-  // Of the first and of the last event no two neighbours tell whether their time is right.
-  const bool is_at_an_end = !next_ || !is_in_the_middle_;
-  if (is_at_an_end) gap_us = std::min(gap_us, longest_gap_us_);
-  is_in_the_middle_ = true;
+  // Of the first event and of the last one, also before a damage, no two neighbours tell whether
+  // their time is right.
+  if (!next_ || !is_in_the_middle_) gap_us = std::min(gap_us, longest_gap_us_);
+  last_us_ = next_ ? time_us : *last_us_ + gap_us;
   longest_gap_us_ = std::max(longest_gap_us_, gap_us);
+  is_in_the_middle_ = true;
   return gap_us;
 }
 

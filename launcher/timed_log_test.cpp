@@ -63,6 +63,23 @@ TEST_F(TimedLogTest, GoesOnWhereTheClockWasSetBack) {
   EXPECT_LE(times_s.back(), 0.9);
 }
 
+TEST_F(TimedLogTest, DoesNotBelieveATimeBesideADamageEither) {
+  for (const int64_t wrong : {int64_t{0}, 2 * kStart}) {
+    TimesOf({kStart, kStart + kTenth, wrong, kStart + 3 * kTenth, kStart + 4 * kTenth,
+             kStart + 5 * kTenth});
+    const auto event_bytes = static_cast<std::streamoff>(std::filesystem::file_size(path_) / 6);
+    std::fstream(path_, std::ios::binary | std::ios::in | std::ios::out)
+        .seekp(3 * event_bytes)
+        .put('x');
+    TimedLog log(path_);
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(log.Next());
+    EXPECT_THROW(log.Next(), std::runtime_error);
+    ASSERT_TRUE(log.SkipDamage());
+    ASSERT_TRUE(log.Next());
+    EXPECT_LE(log.Next()->at_s, 20.0);
+  }
+}
+
 TEST_F(TimedLogTest, GivesWhatIsBeforeADamageAndBehindIt) {
   TimesOf({kStart, kStart + kTenth, kStart + 2 * kTenth});
   const auto event_bytes = static_cast<std::streamoff>(std::filesystem::file_size(path_) / 3);

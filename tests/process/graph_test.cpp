@@ -227,6 +227,26 @@ TEST_F(GraphTest, GivesTheSameObjectsWhenReplayedFromAnyModule) {
   }
 }
 
+TEST_F(GraphTest, GivesTheObjectsOfALiveRunWhichSkippedFramesWhenReplayed) {
+  RenderScene("a");
+  const std::string log = folder_.Path("live.lcm");
+  graph_ = "live.textproto";
+  const Outcome live = Run(scenes_, output_,
+                           {"--record", log, "--set", "kinect_source.rate_hz=100", "--set",
+                            "kinect_source.loop=true", "--set", "kinect_source.num_frames=80"});
+  ASSERT_EQ(live.code, 0) << live.err;
+  const auto recorded = MessagesOf("OBJECTS", log);
+  ASSERT_FALSE(recorded.empty());
+  graph_ = "recordings.textproto";
+  for (const std::string module : {"hough_segmenter", "model_verifier"}) {
+    const std::string again = folder_.Path(module + ".lcm");
+    const Outcome outcome =
+        Run("", folder_.Path(module), {"--replay", log, "--from", module, "--record", again});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(MessagesOf("OBJECTS", again), testing::IsSupersetOf(recorded)) << module;
+  }
+}
+
 TEST_F(GraphTest, GivesTheSameBytesAtEveryStageOfTwoReplays) {
   RenderScene("a");
   RenderScene("b");

@@ -137,6 +137,15 @@ TEST_F(ReplayOptionsTest, EndsWithOneWhenAModuleAloneRejectsAMessage) {
   EXPECT_THAT(Answered(), SizeIs(49));
 }
 
+TEST_F(ReplayOptionsTest, ReplaysALogThatIsCutOffUpToThere) {
+  fs::resize_file(log_, fs::file_size(log_) / 2);
+  const size_t num_whole = UtimesOf("DEPTH_FRAME", log_).size();
+  const Outcome outcome = Replay({});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("run.lcm: cut off after "));
+  EXPECT_THAT(Answered(), SizeIs(num_whole));
+}
+
 TEST_F(ReplayOptionsTest, DoesNotWaitForAClockThatWentAstray) {
   Change([num = 0](runtime::LogEvent* event) mutable {
     ++num;
