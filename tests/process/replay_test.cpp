@@ -81,13 +81,18 @@ TEST_F(ReplayOptionsTest, PlaysAPartWithoutLoss) {
 }
 
 TEST_F(ReplayOptionsTest, PlaysAgainAndAgainUntilASignal) {
-  Launched launcher(Command({"--loop", "--speed", "5"}), folder_);
-  ASSERT_TRUE(Eventually([this] {
-    const auto sent = UtimesOf("DEPTH_FRAME", again_);
-    return std::count(sent.begin(), sent.end(), 7) >= 3;
-  }));
-  launcher.Signal(SIGTERM);
-  EXPECT_EQ(launcher.Wait().code, 0) << ReadFile(folder_.Path("stderr"));
+  const std::vector<std::vector<std::string>> ways = {{"--loop", "--speed", "5"},
+                                                      {"--loop", "--end", "0.5"}};
+  for (const auto& options : ways) {
+    fs::remove(again_);
+    Launched launcher(Command(options), folder_);
+    ASSERT_TRUE(Eventually([this] {
+      const auto sent = UtimesOf("DEPTH_FRAME", again_);
+      return std::count(sent.begin(), sent.end(), 7) >= 3;
+    }));
+    launcher.Signal(SIGTERM);
+    EXPECT_EQ(launcher.Wait().code, 0) << ReadFile(folder_.Path("stderr"));
+  }
 }
 
 TEST_F(ReplayOptionsTest, StopsAndStepsWhenAKeyIsPressed) {
