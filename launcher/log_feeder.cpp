@@ -29,8 +29,9 @@ LogFeeder::LogFeeder(const ReplayPlan& plan, Wire* wire)
       wire_(wire),
       timer_fd_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
   if (timer_fd_ < 0) throw std::runtime_error("no descriptors left");
-  if (!frames_.left_out().empty())
+  if (!frames_.left_out().empty()) {
     std::cerr << "launcher: " << frames_.left_out() << " and are left out\n";
+  }
 }
 
 LogFeeder::~LogFeeder() { close(timer_fd_); }
