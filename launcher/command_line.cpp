@@ -1,6 +1,7 @@
 #include "launcher/command_line.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "modules/runtime/suggestion.h"
@@ -23,6 +24,10 @@ constexpr const char* kHelp = R"(launcher: runs a graph of modules
       --record LOG               write all messages to a new LCM log
       --replay LOG               take the messages of the sources from a log, skipping no frame
       --from MODULE              with --replay: run only MODULE and what is downstream of it
+      --speed X                  with --replay: X times as fast as it was recorded, skipping frames
+                                 as with a sensor
+      --start S, --end S         with --replay: a part of the log, in seconds from its beginning
+      --loop                     with --replay: again and again
       --url URL                  LCM network (else LCM_DEFAULT_URL, else one of its own)
       --isolate                  in a network of its own, which nobody else can reach
       --log_dir DIR              where the folder of this run is made (else logs of the project)
@@ -41,6 +46,9 @@ constexpr const char* kHelp = R"(launcher: runs a graph of modules
 
   launcher doctor [--log_dir DIR]
       Looks at what a run needs from this machine, and tells what mends what is missing.
+
+  In a terminal the space bar stops a replay and lets it go on; n gives the next frame while it is
+  stopped.
 
   run ends with 0 when all went well, also when a signal ends a live graph; with 128 + the signal's
   number when it cuts a lossless graph short; else with the code of the first required module that
@@ -79,6 +87,14 @@ struct Option {
   bool has_value = true;
 };
 
+// Of a replay: a number from min, given to take.
+Option Number(const std::string& flag, double min,
+              const std::function<void(double number, CommandLine*)>& take) {
+  return {flag, {Verb::kRun}, [min, take](const std::string& value, CommandLine* line) {
+            take(ParseNumber(value, min), line);
+          }};
+}
+
 Option Once(const std::string& flag, const VerbSet& verbs, std::string CommandLine::*field) {
   return {flag, verbs, [field](const std::string& value, CommandLine* line) {
             if (!(line->*field).empty()) throw ConfigError("given twice");
@@ -101,6 +117,10 @@ const std::vector<Option>& Options() {
       Once("--record", run, &CommandLine::record),
       Once("--replay", run, &CommandLine::replay),
       Once("--from", run, &CommandLine::from),
+      Number("--speed", kMinSpeed, [](double x, CommandLine* line) { line->speed = x; }),
+      Number("--start", 0.0, [](double x, CommandLine* line) { line->part.start_s = x; }),
+      Number("--end", 0.0, [](double x, CommandLine* line) { line->part.end_s = x; }),
+      {"--loop", run, [](const std::string&, CommandLine* line) { line->loops = true; }, false},
       Once("--url", run, &CommandLine::url),
       {"--isolate", run, [](const std::string&, CommandLine* line) { line->is_isolated = true; },
        false},
@@ -184,7 +204,11 @@ CommandLine ParseCommandLine(const std::vector<std::string>& arguments) {
       throw ConfigError(rule.word + ": what is " + arguments[i] + "?");
     }
   }
-  if (!line.from.empty() && line.replay.empty()) throw ConfigError("--from: needs --replay");
+  const bool is_whole = line.part.start_s == 0.0 && std::isinf(line.part.end_s);
+  const bool wants_replay = !line.from.empty() || line.speed || line.loops || !is_whole;
+  if (wants_replay && line.replay.empty()) {
+    throw ConfigError("--from, --speed, --start, --end and --loop need --replay");
+  }
   if (operand != rule.operands.end()) throw ConfigError(rule.word + " needs " + operand->first);
   return line;
 }

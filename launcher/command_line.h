@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "launcher/excerpt.h"
 #include "modules/runtime/config_error.h"
 
 namespace declutter::launcher {
@@ -21,6 +23,9 @@ struct CommandLine {
   std::string record;                    // log to write; empty: none
   std::string replay;                    // log to read in place of the sources; empty: none
   std::string from;                      // first module of a replay; empty: not given
+  Excerpt part;                          // of the log of a replay
+  std::optional<double> speed;           // of a replay; nothing: without loss
+  bool loops = false;                    // a replay
   std::string url;                       // empty: not given
   std::string logs;                      // folder; empty: not given
   std::string run_folder;                // of the running graph; empty: not given

@@ -32,7 +32,7 @@ int Run(const CommandLine& line, ResolvedGraph graph) {
   if (options.url.empty() && environment_url != nullptr) options.url = environment_url;
   if (options.logs.empty()) options.logs = DefaultLogs();
   Select(line.only, line.without, &graph);
-  if (!line.replay.empty()) options.replay = PlanReplay(line.replay, line.from, &graph);
+  if (!line.replay.empty()) options.replay = PlanReplay(line, &graph);
   bool is_complete = true;
   for (const ResolvedModule& module : graph.modules) {
     Print(module.missing);

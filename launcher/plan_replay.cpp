@@ -1,6 +1,7 @@
 #include "launcher/plan_replay.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -46,21 +47,45 @@ std::set<size_t> Select(const std::vector<WiredModule>& wiring, const std::strin
   return kept;
 }
 
+// What is needed from the log for a message on channel: what its publisher consumes, and what is
+// needed for that. Of a module that does with less, too; nothing tells which those are.
+void AddNeeded(const std::string& channel, const std::vector<WiredModule>& wiring,
+               const std::map<std::string, std::string>& fed, std::set<std::string>* visited,
+               std::set<std::string>* needed) {
+  if (!visited->insert(channel).second) return;
+  if (fed.count(channel) > 0) needed->insert(channel);
+  const auto is_channel = [&](const Port& port) { return port.channel == channel; };
+  for (const WiredModule& module : wiring) {
+    if (std::none_of(module.outputs.begin(), module.outputs.end(), is_channel)) continue;
+    for (const Port& input : module.inputs) {
+      AddNeeded(input.channel, wiring, fed, visited, needed);
+    }
+  }
+}
+
+std::set<std::string> Needed(const std::set<std::string>& awaited,
+                             const std::vector<WiredModule>& wiring,
+                             const std::map<std::string, std::string>& fed) {
+  std::set<std::string> visited, needed;
+  for (const std::string& channel : awaited) AddNeeded(channel, wiring, fed, &visited, &needed);
+  return needed;
+}
+
 }  // namespace
 
-ReplayPlan PlanReplay(const std::string& log, const std::string& from, ResolvedGraph* graph) {
+ReplayPlan PlanReplay(const CommandLine& line, ResolvedGraph* graph) {
   std::vector<ResolvedModule> kept;
-  for (const size_t index : Select(Wiring(*graph), from)) {
+  for (const size_t index : Select(Wiring(*graph), line.from)) {
     kept.push_back(std::move(graph->modules[index]));
   }
   graph->modules = std::move(kept);
-  graph->lossless = true;
+  graph->lossless = !line.speed;
   graph->logger.reset();
 
-  ReplayPlan plan{log, {}, {}};
+  ReplayPlan plan{line.replay, {}, {}, {}, line.part, line.speed, line.loops};
   std::set<std::string> objects;
   for (const ResolvedModule& resolved : graph->modules) {
-    for (const Port& input : resolved.wiring.inputs) plan.fed.insert(input.channel);
+    for (const Port& input : resolved.wiring.inputs) plan.fed[input.channel] = input.type;
     for (const Port& output : resolved.wiring.outputs) {
       plan.awaited.insert(output.channel);
       if (output.type == object_list_t::getTypeName()) objects.insert(output.channel);
@@ -71,6 +96,8 @@ ReplayPlan PlanReplay(const std::string& log, const std::string& from, ResolvedG
   for (const std::string& channel : plan.awaited) plan.fed.erase(channel);
   // Objects are a frame's last result: they tell of all others.
   if (!objects.empty()) plan.awaited = objects;
+  // Live, a module skips frames: then the log has none of their results.
+  if (!line.speed) plan.needed = Needed(plan.awaited, Wiring(*graph), plan.fed);
   // Who publishes nothing tells in its status, if only once a second.
   if (plan.awaited.empty()) plan.awaited.insert(kModuleStatus.name);
   if (plan.fed.empty()) throw runtime::ConfigError("--replay: nothing is needed from the log");

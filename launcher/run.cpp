@@ -195,7 +195,8 @@ int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
     processes[kLogger] = MakeRecorder(*recording, graph, options, folder, &wire);
   }
   if (options.replay) processes[kFeeder] = std::make_unique<LogFeeder>(*options.replay, &wire);
-  Supervisor supervisor(PlanNodes(graph, options), graph.lossless);
+  const bool is_finite = graph.lossless && !(options.replay && options.replay->loops);
+  Supervisor supervisor(PlanNodes(graph, options), is_finite);
   ControlSocket control(folder.path());
   ModuleMaker maker(graph, folder);
   return Session(std::move(supervisor), std::move(processes), &wire, &control, &maker).Run();

@@ -6,11 +6,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <stdexcept>
 #include <utility>
 
+#include "launcher/monotonic_time.h"
 #include "modules/runtime/suggestion.h"
 
 namespace declutter::launcher {
@@ -18,11 +18,6 @@ namespace {
 
 constexpr int kTurn_ms = 10;
 constexpr int kRefused = 2;
-
-double MonotonicSeconds() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double>(now).count();
-}
 
 sigset_t HandledSignals() {
   sigset_t signals;

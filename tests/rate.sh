@@ -2,7 +2,8 @@
 # Measures the graph at the rate of a sensor: tests/rate.sh [--seconds N]
 # Plays rendered dense scenes at 30 Hz for N seconds (60) through the whole graph, with all messages
 # recorded, and prints what became of the frames, how long they took, and what each process needed.
-# Ends with 1 unless every frame came out, in time, with a fifth of the processor to spare.
+# Ends with 1 unless every frame came out, in time, with a fifth of the processor to spare, and the
+# log holds every message.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -88,6 +89,7 @@ awk -v hz="$(getconf CLK_TCK)" -v cores="$(nproc)" -v busy="$busy" \
     if (!holds) missed = 1
   }
   FILENAME ~ /frames/ && / depth frames in / { num_in = $1; span_s = $5 }
+  FILENAME ~ /frames/ && / messages published / { num_published = $1; num_logged = $6 }
   FILENAME ~ /frames/ && $1 == "OBJECTS" { num_out = $2; p50 = $3; p95 = $4 }
   FILENAME ~ /processes/ {
     if (!total) printf "%-20s %8s %8s %8s\n", "process", "CPU s", "cores %", "peak MB"
@@ -104,6 +106,8 @@ awk -v hz="$(getconf CLK_TCK)" -v cores="$(nproc)" -v busy="$busy" \
     hold("frames in", num_in + 0, num_frames, num_in == num_frames)
     hold("from first to last, s", span_s, sprintf("<= %.1f", due_s * (1 + max_stretch / 100)),
          num_in > 0 && span_s <= due_s * (1 + max_stretch / 100))
+    hold("messages in the log", num_logged + 0, num_published,
+         num_published > 0 && num_logged == num_published)
     hold("frames out", num_out + 0, num_frames, num_out == num_frames)
     hold("latency p50, ms", num_out ? p50 : "-", "<= " max_p50, num_out && p50 <= max_p50)
     hold("latency p95, ms", num_out ? p95 : "-", "<= " max_p95, num_out && p95 <= max_p95)

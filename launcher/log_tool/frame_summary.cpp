@@ -20,25 +20,28 @@ constexpr char kLauncher[] = "launcher";  // its statuses mark the ends of a log
 
 class FrameLedger {
  public:
-  void Add(const LogEvent& event) {
+  void Add(const LogEvent& event, double at_s) {
     if (event.message.size() < kMinSize) return;
     if (event.channel == kModuleStatus.name) return AddStatus(event);
+    if (event.channel == kRunInfo.name) return;
+    ++summary_.num_logged;
+    const int64_t at_us = std::llround(1e6 * at_s);
     const int64_t utime = runtime::UtimeOf(event.message.data());
     if (event.channel == kDepthFrame.name) {
-      if (sent_us_.emplace(utime, event.utime).second) Extend(event.utime);
+      if (sent_us_.emplace(utime, at_us).second) Extend(at_us);
       return;
     }
     // Colour goes out before its depth; what is there before has no delay.
     const auto sent = sent_us_.find(utime);
     if (sent == sent_us_.end() || !seen_[event.channel].insert(utime).second) return;
-    summary_.delays_ms[event.channel].push_back(1e-3 *
-                                                static_cast<double>(event.utime - sent->second));
+    summary_.delays_ms[event.channel].push_back(1e-3 * static_cast<double>(at_us - sent->second));
   }
 
   FrameSummary Finish() {
     for (auto& [channel, delays_ms] : summary_.delays_ms) {
       std::sort(delays_ms.begin(), delays_ms.end());
     }
+    for (const auto& [process, num_out] : published_) summary_.num_published += num_out;
     return std::move(summary_);
   }
 
@@ -50,13 +53,16 @@ class FrameLedger {
 
   void AddStatus(const LogEvent& event) {
     const auto status = launcher::DecodeStatus({event.channel, event.message});
-    if (status && status->module != kLauncher) summary_.modules[status->module] = *status;
+    if (!status || status->module == kLauncher) return;
+    summary_.modules[status->module] = *status;
+    published_[{status->module, status->pid}] = status->num_out;
   }
 
   FrameSummary summary_;
   int64_t first_us_ = 0;
   std::map<int64_t, int64_t> sent_us_;  // by utime
   std::map<std::string, std::set<int64_t>> seen_;
+  std::map<std::pair<std::string, int32_t>, int64_t> published_;  // by module and process
 };
 
 }  // namespace
@@ -64,7 +70,7 @@ class FrameLedger {
 FrameSummary SummariseFrames(const std::string& log) {
   FrameLedger ledger;
   std::vector<std::string> damages =
-      ForEachEvent(log, [&](const LogEvent& event) { ledger.Add(event); });
+      ForEachEvent(log, [&](const LogEvent& event, double at_s) { ledger.Add(event, at_s); });
   FrameSummary summary = ledger.Finish();
   summary.damages = std::move(damages);
   return summary;
@@ -87,6 +93,10 @@ std::string Text(const FrameSummary& summary) {
                   static_cast<long long>(status.num_skipped));
     text += line;
   }
+  std::snprintf(line, sizeof(line), "\n%lld messages published by modules, %lld in the log\n",
+                static_cast<long long>(summary.num_published),
+                static_cast<long long>(summary.num_logged));
+  text += line;
   std::snprintf(line, sizeof(line), "\n%-20s %8s %8s %8s %8s %8s\n", "ms after its depth", "frames",
                 "p50", "p95", "p99", "max");
   text += line;

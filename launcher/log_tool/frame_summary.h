@@ -18,6 +18,10 @@ struct FrameSummary {
   std::map<std::string, std::vector<double>> delays_ms;
   // The last status of each module; one that was started again begins again.
   std::map<std::string, module_status_t> modules;
+  // Messages, status and what tells of the run left out: those that modules say they have
+  // published, of all their processes, and those in the log.
+  int64_t num_published = 0;
+  int64_t num_logged = 0;
   std::vector<std::string> damages;  // of the log, and where
 };
 

@@ -85,6 +85,29 @@ TEST_F(FrameSummaryTest, TakesTheLastStatusOfEachModuleAndNoneOfTheLauncher) {
   EXPECT_THAT(Text(summary), HasSubstr("plane_filter               11        0        3"));
 }
 
+TEST_F(FrameSummaryTest, CountsWhatAllProcessesOfAModulePublishedAndWhatIsThere) {
+  {
+    runtime::EventLogWriter writer(path_);
+    module_status_t status = {};
+    status.module = "plane_filter";
+    const auto write = [&](int32_t pid, int64_t num_out) {
+      status.pid = pid;
+      status.num_out = num_out;
+      writer.Write({1, "MODULE_STATUS", launcher::Encode(kModuleStatus, status).bytes});
+    };
+    write(7, 1);
+    write(7, 2);
+    write(8, 1);
+    const auto message = launcher::Encode(kTabletop, tabletop_t{});
+    for (int i = 0; i < 3; ++i) writer.Write({1, "TABLETOP", message.bytes});
+    writer.Write({1, "RUN_INFO", launcher::Encode(kRunInfo, run_info_t{}).bytes});
+  }
+  const FrameSummary summary = SummariseFrames(path_);
+  EXPECT_EQ(summary.num_published, 3);
+  EXPECT_EQ(summary.num_logged, 3);
+  EXPECT_THAT(Text(summary), HasSubstr("\n3 messages published by modules, 3 in the log\n"));
+}
+
 TEST_F(FrameSummaryTest, TellsOfDamageAndGoesOn) {
   SummaryOf({{1, "DEPTH_FRAME", 7}, {2, "OBJECTS", 7}, {3, "OBJECTS", 8}});
   std::filesystem::resize_file(path_, std::filesystem::file_size(path_) - 1);

@@ -3,20 +3,27 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "launcher/excerpt.h"
+#include "launcher/log_tool/cut.h"
+#include "launcher/log_tool/frame_export.h"
 #include "launcher/log_tool/frame_summary.h"
 #include "launcher/log_tool/log_scan.h"
 #include "launcher/log_tool/player.h"
-#include "lcmtypes/channels.h"
+#include "launcher/log_tool/top.h"
+#include "launcher/network.h"
 #include "modules/runtime/config_error.h"
 #include "modules/runtime/suggestion.h"
 
 namespace declutter::log_tool {
 namespace {
 
+using launcher::ParseNumber;
 using runtime::ConfigError;
 
 constexpr int kFailure = 1;
@@ -28,13 +35,22 @@ constexpr const char* kHelp = R"(log_tool: looks into logs of LCM
       Channels with their types, rates, sizes and gaps, what made the log, and what is damaged;
       or the graph, with all parameters, that it was recorded from.
   log_tool frames LOG
-      Frames in, out and skipped of each module, and how long after the depth of a frame its
-      messages were recorded.
+      Frames in, out and skipped of each module, whether all messages that they published are in the
+      log, and how long after the depth of a frame its messages were recorded.
   log_tool cut LOG NEW_LOG [PART]
       Copies a part of a log, without what is damaged.
   log_tool play LOG [PART] [--speed X] [--loop] [--url URL]
       Publishes it as it was recorded. In a terminal the space bar stops it and lets it go on; n
       gives the next message while it is stopped.
+  log_tool top [LOG [PART] [--speed X]] [--url URL] [--channel CHANNEL] [--seconds S]
+      Channels with their rates, and what the latest message on one of them says: live, or of a log
+      that is played. In a terminal j and k choose the channel and q ends it; else what there is
+      after S seconds, or at the end of the log, is printed.
+  log_tool to_pictures LOG FOLDER [PART]
+      Of each frame the objects over the image, the table from above with the votes of hypotheses,
+      and the features; of all frames contact sheets.
+  log_tool to_pcd LOG FOLDER [PART]
+      Of each frame the measured points with colour and label, and points of the models.
 
   PART:  --start S and --end S, in seconds from the beginning; --channels A,B
 
@@ -43,31 +59,18 @@ constexpr const char* kHelp = R"(log_tool: looks into logs of LCM
 
 struct CommandLine {
   std::vector<std::string> operands;  // the verb first
-  Excerpt excerpt;
+  launcher::Excerpt excerpt;
   double speed = 1.0;
   bool loops = false;
   bool shows_graph = false;
   std::string url;
+  TopOptions top;
 };
 
-double Number(const std::string& text, double min) {
-  size_t end = 0;
-  double number = 0.0;
-  try {
-    number = std::stod(text, &end);
-  } catch (const std::logic_error&) {
-    end = 0;
-  }
-  if (end == 0 || end != text.size() || !(number >= min)) {
-    throw ConfigError("'" + text + "' is no number from " + std::to_string(min));
-  }
-  return number;
-}
-
-std::vector<std::string> Split(const std::string& list) {
+std::set<std::string> Split(const std::string& list) {
   std::istringstream words(list);
-  std::vector<std::string> split;
-  for (std::string word; std::getline(words, word, ',');) split.push_back(word);
+  std::set<std::string> split;
+  for (std::string word; std::getline(words, word, ',');) split.insert(word);
   return split;
 }
 
@@ -76,11 +79,13 @@ CommandLine Parse(const std::vector<std::string>& arguments) {
   CommandLine line;
   using Value = const std::string&;
   const std::map<std::string, std::function<void(Value)>> valued = {
-      {"--start", [&](Value value) { line.excerpt.start_s = Number(value, 0.0); }},
-      {"--end", [&](Value value) { line.excerpt.end_s = Number(value, 0.0); }},
+      {"--start", [&](Value value) { line.excerpt.start_s = ParseNumber(value, 0.0); }},
+      {"--end", [&](Value value) { line.excerpt.end_s = ParseNumber(value, 0.0); }},
       {"--channels", [&](Value value) { line.excerpt.channels = Split(value); }},
-      {"--speed", [&](Value value) { line.speed = Number(value, 0.001); }},
-      {"--url", [&](Value value) { line.url = value; }}};
+      {"--speed", [&](Value value) { line.speed = ParseNumber(value, launcher::kMinSpeed); }},
+      {"--url", [&](Value value) { line.url = value; }},
+      {"--channel", [&](Value value) { line.top.channel = value; }},
+      {"--seconds", [&](Value value) { line.top.seconds = ParseNumber(value, 0.001); }}};
   const std::map<std::string, bool*> plain = {{"--loop", &line.loops},
                                               {"--graph", &line.shows_graph}};
   for (size_t i = 0; i < arguments.size(); ++i) {
@@ -93,9 +98,10 @@ CommandLine Parse(const std::vector<std::string>& arguments) {
       if (++i == arguments.size()) throw ConfigError(word + ": needs a value");
       option->second(arguments[i]);
     } else {
-      throw ConfigError(word + ": unknown option" +
-                        runtime::Suggestion(word, {"--start", "--end", "--channels", "--speed",
-                                                   "--url", "--loop", "--graph"}));
+      throw ConfigError(
+          word + ": unknown option" +
+          runtime::Suggestion(word, {"--start", "--end", "--channels", "--speed", "--url", "--loop",
+                                     "--graph", "--channel", "--seconds"}));
     }
   }
   return line;
@@ -106,35 +112,66 @@ int Info(const std::string& log, bool shows_graph) {
   if (shows_graph && summary.graph.empty()) {
     throw std::runtime_error(log + ": does not say what made it");
   }
-  std::cout << (shows_graph ? summary.graph : Text(summary)) << std::flush;
+  std::cout << (shows_graph ? summary.graph : Text(summary));
   return summary.damages.empty() ? 0 : kFailure;
 }
 
 int Frames(const std::string& log) {
   const FrameSummary summary = SummariseFrames(log);
-  std::cout << Text(summary) << std::flush;
+  std::cout << Text(summary);
   return summary.damages.empty() ? 0 : kFailure;
 }
 
-int Cut(const std::string& log, const std::string& new_log, const Excerpt& excerpt) {
-  runtime::EventLogWriter writer(new_log);
-  std::optional<int64_t> first_us;
-  int64_t num_copied = 0;
-  const auto damages = ForEachEvent(log, [&](const runtime::LogEvent& event) {
-    if (!first_us) first_us = event.utime;
-    // What made it belongs to every part of a log.
-    const bool is_info = event.channel == kRunInfo.name;
-    if (!is_info && !excerpt.Holds(event.channel, event.utime, *first_us)) return;
-    writer.Write(event);
-    num_copied += is_info ? 0 : 1;
-  });
-  for (const std::string& damage : damages) std::cerr << "log_tool: " << damage << "\n";
-  if (num_copied == 0) throw std::runtime_error(log + ": no message in that part");
-  return damages.empty() ? 0 : kFailure;
+std::string UrlOf(const CommandLine& line) {
+  const char* environment_url = std::getenv("LCM_DEFAULT_URL");
+  std::string url =
+      environment_url != nullptr ? environment_url : "udpm://239.255.76.67:7667?ttl=0";
+  if (!line.url.empty()) url = line.url;
+  return launcher::WithReceiveBuffer(url);
+}
+
+int Top(const CommandLine& line) {
+  TopOptions options = line.top;
+  options.excerpt = line.excerpt;
+  options.speed = line.speed;
+  return line.operands.size() > 1 ? WatchLog(line.operands[1], options)
+                                  : WatchNetwork(UrlOf(line), options);
+}
+
+struct VerbRule {
+  size_t min_operands;  // the verb among them
+  size_t max_operands;
+  const char* needs;
+  std::function<int(const CommandLine& line)> act;
+};
+
+const std::map<std::string, VerbRule>& VerbRules() {
+  using Line = const CommandLine&;
+  constexpr const char* kLog = "a log is needed";
+  constexpr const char* kLogAndFolder = "a log and a folder are needed";
+  static const std::map<std::string, VerbRule> rules = {
+      {"info", {2, 2, kLog, [](Line line) { return Info(line.operands[1], line.shows_graph); }}},
+      {"frames", {2, 2, kLog, [](Line line) { return Frames(line.operands[1]); }}},
+      {"cut",
+       {3, 3, "a log is needed, and the name of a new one",
+        [](Line line) { return Cut(line.operands[1], line.operands[2], line.excerpt); }}},
+      {"play",
+       {2, 2, kLog,
+        [](Line line) {
+          return Play(line.operands[1], line.excerpt, line.speed, line.loops, UrlOf(line));
+        }}},
+      {"top", {1, 2, "one log, or none", Top}},
+      {"to_pictures",
+       {3, 3, kLogAndFolder,
+        [](Line line) { return WritePictures(line.operands[1], line.operands[2], line.excerpt); }}},
+      {"to_pcd", {3, 3, kLogAndFolder, [](Line line) {
+                    return WriteClouds(line.operands[1], line.operands[2], line.excerpt);
+                  }}}};
+  return rules;
 }
 
 int Act(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) throw ConfigError("info, frames, cut or play what? --help tells more");
+  if (arguments.empty()) throw ConfigError("what is to be done? --help tells");
   for (const std::string& argument : arguments) {
     if (argument != "--help" && argument != "-h") continue;
     std::cout << kHelp;
@@ -142,25 +179,17 @@ int Act(const std::vector<std::string>& arguments) {
   }
   const CommandLine line = Parse(arguments);
   const std::string verb = line.operands.empty() ? "" : line.operands[0];
-  const std::map<std::string, size_t> num_operands = {
-      {"info", 2}, {"frames", 2}, {"cut", 3}, {"play", 2}};
-  const auto known = num_operands.find(verb);
-  if (known == num_operands.end()) {
-    throw ConfigError("unknown verb '" + verb + "'" +
-                      runtime::Suggestion(verb, {"info", "frames", "cut", "play"}));
+  const auto rule = VerbRules().find(verb);
+  if (rule == VerbRules().end()) {
+    std::vector<std::string> verbs;
+    for (const auto& [name, unused] : VerbRules()) verbs.push_back(name);
+    throw ConfigError("unknown verb '" + verb + "'" + runtime::Suggestion(verb, verbs));
   }
-  if (line.operands.size() != known->second) {
-    throw ConfigError(verb + ": a log is needed" +
-                      (verb == "cut" ? ", and the name of a new one" : ""));
+  const auto& [min_operands, max_operands, needs, act] = rule->second;
+  if (line.operands.size() < min_operands || line.operands.size() > max_operands) {
+    throw ConfigError(verb + ": " + needs);
   }
-  if (verb == "info") return Info(line.operands[1], line.shows_graph);
-  if (verb == "frames") return Frames(line.operands[1]);
-  if (verb == "cut") return Cut(line.operands[1], line.operands[2], line.excerpt);
-  const char* environment_url = std::getenv("LCM_DEFAULT_URL");
-  std::string url =
-      environment_url != nullptr ? environment_url : "udpm://239.255.76.67:7667?ttl=0";
-  if (!line.url.empty()) url = line.url;
-  return Play(line.operands[1], line.excerpt, line.speed, line.loops, url);
+  return act(line);
 }
 
 }  // namespace
@@ -169,7 +198,9 @@ int Act(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   using namespace declutter;
   try {
-    return log_tool::Act({argv + 1, argv + argc});
+    const int code = log_tool::Act({argv + 1, argv + argc});
+    if (std::cout.flush()) return code;
+    throw std::runtime_error("stdout cannot be written");
   } catch (const runtime::ConfigError& error) {
     std::cerr << "log_tool: " << error.what() << "\n";
     return log_tool::kBadCommand;

@@ -65,6 +65,16 @@ void Canvas::FillRectangle(int u, int v, int width, int height, const Rgb& color
   }
 }
 
+void Canvas::DrawImage(int u, int v, const ColorImage& image) {
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 0; column < image.width; ++column) {
+      const size_t first = 3 * (static_cast<size_t>(row) * static_cast<size_t>(image.width) +
+                                static_cast<size_t>(column));
+      Blend(u + column, v + row, {image.rgb[first], image.rgb[first + 1], image.rgb[first + 2]}, 1);
+    }
+  }
+}
+
 void Canvas::DrawText(int u, int v, const std::string& text, int scale, const Rgb& color) {
   for (const char character : text) {
     const auto& glyph = GlyphOf(character);

@@ -27,6 +27,9 @@ class Canvas {
   // Pixels u .. u + width - 1, v .. v + height - 1.
   void FillRectangle(int u, int v, int width, int height, const Rgb& color, double opacity = 1);
 
+  // Another image with its upper left pixel at (u, v).
+  void DrawImage(int u, int v, const ColorImage& image);
+
   // Capitals of 5 x 7 dots, `scale` pixels each, upper left dot at (u, v). Small letters are drawn
   // as capitals, characters without a glyph as an empty box.
   void DrawText(int u, int v, const std::string& text, int scale, const Rgb& color);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <optional>
 #include <stdexcept>
 #include <system_error>
 
@@ -22,8 +21,6 @@ namespace fs = std::filesystem;
 constexpr size_t kMaxImages = 16;
 // A frame is sent again at once or never.
 constexpr size_t kMaxWritten = 256;
-// File systems allow 255 bytes; ".overlay.png" and a number come after the name.
-constexpr size_t kMaxNameBytes = 200;
 
 template <typename Image>
 void Keep(int64_t utime, const Image& image, std::map<int64_t, Image>* images) {
@@ -35,29 +32,6 @@ template <typename Image>
 const Image* Find(int64_t utime, const std::map<int64_t, Image>& images) {
   const auto found = images.find(utime);
   return found == images.end() ? nullptr : &found->second;
-}
-
-// What the pictures of a frame show, at the sensor's size.
-struct Pictured {
-  ObjectList list;
-  std::optional<DepthImage> depth;
-};
-
-Pictured AtSensorSize(const ObjectList& list, const DepthFrame* frame) {
-  if (frame == nullptr) return {list, std::nullopt};
-  const PinholeCamera& camera = frame->image.camera;
-  const bool is_of_list = camera.width == list.camera.width && camera.height == list.camera.height;
-  if (!frame->decimation || !is_of_list) return {list, frame->image};
-  return {AtSensorSize(list, *frame->decimation), AtSensorSize(frame->image, *frame->decimation)};
-}
-
-// The name of a frame as a file name: it comes from a message and may be anything.
-std::string AsFileName(const std::string& frame) {
-  std::string name = frame.substr(0, kMaxNameBytes);
-  std::replace_if(
-      name.begin(), name.end(),
-      [](unsigned char c) { return c == '/' || c == '\\' || c < 0x20 || c == 0x7F; }, '_');
-  return name.empty() ? "frame" : name;
 }
 
 }  // namespace
@@ -94,7 +68,7 @@ void ObjectExporter::Export(const ObjectList& list) {
   std::string picture_name;
   std::string picture_error;
   if (pictures_ && list.header.error.empty() && list.camera.num_pixels() > 0) {
-    picture_name = NewPictureName(list.header.frame);
+    picture_name = picture_names_.NewFor(list.header.frame);
     try {
       WritePictures(list, picture_name);
     } catch (const std::runtime_error& error) {
@@ -114,20 +88,10 @@ bool ObjectExporter::IsNew(const FrameHeader& header) {
   return true;
 }
 
-// Frames may share a name, or have names that differ only in what a file name cannot hold.
-std::string ObjectExporter::NewPictureName(const std::string& frame) {
-  const std::string name = AsFileName(frame);
-  std::string candidate = name;
-  for (int i = 2; !picture_names_.insert(candidate).second; ++i) {
-    candidate = name + "-" + std::to_string(i);
-  }
-  return candidate;
-}
-
 void ObjectExporter::WritePictures(const ObjectList& list, const std::string& picture_name) const {
   const fs::path path = output_ / picture_name;
   const DepthFrame* depth = Find(list.header.utime, depths_);
-  const Pictured shown = AtSensorSize(list, depth);
+  const PicturedFrame shown = AtSensorSize(list, depth);
   imaging::WriteGray8Png(path.string() + ".labels.png",
                          {shown.list.camera.width, shown.list.camera.height, shown.list.labels});
   imaging::WriteRgbPng(path.string() + ".overlay.png",

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "modules/geometry/feature_cloud.h"
 #include "modules/geometry/solid.h"
 #include "modules/object_exporter/object_exporter.pb.h"
+#include "modules/object_exporter/picture_names.h"
 
 namespace declutter {
 
@@ -37,7 +37,6 @@ class ObjectExporter {
 
  private:
   bool IsNew(const FrameHeader& header);
-  std::string NewPictureName(const std::string& frame);
   void WritePictures(const ObjectList& list, const std::string& picture_name) const;
   void WriteLine(const std::string& line);
 
@@ -50,7 +49,7 @@ class ObjectExporter {
   std::map<int64_t, ColorImage> colors_;
   std::map<int64_t, FeatureCloud> features_;
   std::deque<std::pair<int64_t, std::string>> written_;  // utime and name of the latest frames
-  std::set<std::string> picture_names_;
+  PictureNames picture_names_;
 };
 
 }  // namespace declutter

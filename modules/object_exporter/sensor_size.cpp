@@ -32,4 +32,12 @@ DepthImage AtSensorSize(DepthImage image, const Decimation& decimation) {
   return image;
 }
 
+PicturedFrame AtSensorSize(const ObjectList& list, const DepthFrame* frame) {
+  if (frame == nullptr) return {list, std::nullopt};
+  const PinholeCamera& camera = frame->image.camera;
+  const bool is_of_list = camera.width == list.camera.width && camera.height == list.camera.height;
+  if (!frame->decimation || !is_of_list) return {list, frame->image};
+  return {AtSensorSize(list, *frame->decimation), AtSensorSize(frame->image, *frame->decimation)};
+}
+
 }  // namespace declutter

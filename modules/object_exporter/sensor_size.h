@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/solid.h"
 
@@ -11,5 +13,14 @@ namespace declutter {
 ObjectList AtSensorSize(ObjectList list, const Decimation& decimation);
 
 DepthImage AtSensorSize(DepthImage image, const Decimation& decimation);
+
+// What the pictures of a frame show.
+struct PicturedFrame {
+  ObjectList list;
+  std::optional<DepthImage> depth;
+};
+
+// frame: of the same utime; null when there is none.
+PicturedFrame AtSensorSize(const ObjectList& list, const DepthFrame* frame);
 
 }  // namespace declutter

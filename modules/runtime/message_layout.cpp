@@ -1,6 +1,8 @@
 #include "modules/runtime/message_layout.h"
 
 #include <cctype>
+#include <cinttypes>
+#include <cstdio>
 #include <map>
 #include <stdexcept>
 
@@ -11,6 +13,8 @@ namespace declutter::runtime {
 namespace {
 
 using Type = MessageLayout::Type;
+
+constexpr std::size_t kFingerprintBytes = 8;
 
 const std::map<std::string, Type>& TypesByName() {
   static const std::map<std::string, Type> types = {
@@ -63,6 +67,12 @@ class Fingerprint {
  private:
   std::int64_t hash_ = 0x12345678;
 };
+
+std::string Hexadecimal(std::int64_t fingerprint) {
+  char text[20];
+  std::snprintf(text, sizeof(text), "0x%016" PRIx64, static_cast<std::uint64_t>(fingerprint));
+  return text;
+}
 
 bool IsNumber(const std::string& word) {
   return std::isdigit(static_cast<unsigned char>(word[0])) != 0;
@@ -146,14 +156,25 @@ MessageLayout MessageLayout::Parse(const std::string& text) {
   return layout;
 }
 
-std::vector<MessageLayout::Span> MessageLayout::Locate(const std::uint8_t* data,
-                                                       std::size_t size) const {
-  if (size < 8 || ReadInteger(data, 8) != fingerprint_) {
+void MessageLayout::CheckType(const std::uint8_t* data, std::size_t size) const {
+  if (size < kFingerprintBytes) {
     throw std::runtime_error("not a " + name_ + " (" + std::to_string(size) + " byte)");
   }
+  const std::int64_t fingerprint = ReadInteger(data, kFingerprintBytes);
+  if (fingerprint == fingerprint_) return;
+  if (const MessageLayout* other = FindLayout(data, size)) {
+    throw std::runtime_error("of type " + other->name() + ", not " + name_);
+  }
+  throw std::runtime_error("not a " + name_ + " of this version (fingerprint " +
+                           Hexadecimal(fingerprint) + ", here " + Hexadecimal(fingerprint_) + ')');
+}
+
+std::vector<MessageLayout::Span> MessageLayout::Locate(const std::uint8_t* data,
+                                                       std::size_t size) const {
+  CheckType(data, size);
   std::vector<Span> spans;
   spans.reserve(fields_.size());
-  std::size_t offset = 8;
+  std::size_t offset = kFingerprintBytes;
   for (const Field& field : fields_) {
     int count = field.fixed_count;
     if (field.count_field >= 0) {
@@ -187,7 +208,16 @@ const MessageLayout& LayoutOf(const std::string& type_name) {
   throw std::logic_error("no .lcm file declares " + type_name);
 }
 
-std::int64_t UtimeOf(const std::uint8_t* data) { return ReadInteger(data + 8, 8); }
+const MessageLayout* FindLayout(const std::uint8_t* data, std::size_t size) {
+  if (size < kFingerprintBytes) return nullptr;
+  const std::int64_t fingerprint = ReadInteger(data, kFingerprintBytes);
+  for (const MessageLayout& layout : AllLayouts()) {
+    if (layout.fingerprint() == fingerprint) return &layout;
+  }
+  return nullptr;
+}
+
+std::int64_t UtimeOf(const std::uint8_t* data) { return ReadInteger(data + kFingerprintBytes, 8); }
 
 std::int64_t ReadInteger(const std::uint8_t* data, std::size_t size) {
   std::uint64_t bits = (data[0] & 0x80U) != 0 ? ~std::uint64_t{0} : 0;

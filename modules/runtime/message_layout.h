@@ -35,6 +35,10 @@ class MessageLayout {
   // Throws std::logic_error for text that is not such a struct.
   static MessageLayout Parse(const std::string& definition);
 
+  // Throws std::runtime_error, saying what a message is instead, when it is not of this type or of
+  // another version of it.
+  void CheckType(const std::uint8_t* data, std::size_t size) const;
+
   // Where each field lies in an encoded message. Throws std::runtime_error naming what is wrong
   // with a message that lcm-gen's decoder must not see. Allocates nothing of a size the message
   // states.
@@ -57,6 +61,9 @@ const std::vector<MessageLayout>& AllLayouts();
 
 // Throws std::logic_error for a name that no .lcm file declares.
 const MessageLayout& LayoutOf(const std::string& type_name);
+
+// Of which of our types a message says it is; null for none.
+const MessageLayout* FindLayout(const std::uint8_t* data, std::size_t size);
 
 // The first field of every message, [us]. data holds at least 16 bytes.
 std::int64_t UtimeOf(const std::uint8_t* data);

@@ -202,6 +202,26 @@ TEST(MessageLayout, NamesTheFieldThatIsBroken) {
   EXPECT_EQ(fault(Bytes(4)), "not a labelled_t (4 byte)");
 }
 
+TEST(MessageLayout, TellsAnotherTypeFromAnotherVersion) {
+  const auto fault = [](const Bytes& bytes) -> std::string {
+    try {
+      LayoutOf("tabletop_t").CheckType(bytes.data(), bytes.size());
+      return "none";
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  };
+  std::mt19937 random(1);
+  Bytes tabletop = RandomMessage(LayoutOf("tabletop_t"), &random);
+  EXPECT_EQ(fault(tabletop), "none");
+  EXPECT_EQ(fault(RandomMessage(LayoutOf("object_list_t"), &random)),
+            "of type object_list_t, not tabletop_t");
+  tabletop[7] ^= 1;
+  EXPECT_THAT(fault(tabletop),
+              testing::MatchesRegex("not a tabletop_t of this version \\(fingerprint "
+                                    "0x[0-9a-f]{16}, here 0x[0-9a-f]{16}\\)"));
+}
+
 TEST(MessageLayout, RefusesDefinitionsThatAreNotFlat) {
   EXPECT_THROW(MessageLayout::Parse("struct a_t { double p[3][3]; }"), std::logic_error);
   EXPECT_THROW(MessageLayout::Parse("struct a_t { other_t other; }"), std::logic_error);

@@ -111,11 +111,63 @@ TEST_F(ReplayTest, JoinsTheMessagesOfAFrame) {
   EXPECT_THAT(utimes_, ElementsAre(2, 1));
 }
 
+TEST_F(ReplayTest, LeavesOutFramesThatWereSkippedWhenTheLogWasMade) {
+  std::vector<LogEvent> events;
+  for (int i = 1; i <= 500; ++i) {
+    events.push_back({i, "TABLETOP", EncodedAt<tabletop_t>(i)});
+    if (i % 100 == 0) events.push_back({i, "FEATURES", EncodedAt<feature_cloud_t>(i)});
+  }
+  WriteLog(events);
+  bus_.SubscribeJoined(kTabletop, kFeatures, [this](const tabletop_t& tabletop, const auto&) {
+    utimes_.push_back(tabletop.utime);
+  });
+  Replay(in_, "", &shell_);
+  EXPECT_THAT(utimes_, ElementsAre(100, 200, 300, 400, 500));
+  EXPECT_EQ(shell_.num_left_out(), 495);
+  EXPECT_FALSE(shell_.failed());
+}
+
 TEST_F(ReplayTest, ProcessesEveryCompleteEventOfALogThatIsCutOff) {
   WriteLog({{1, "TABLETOP", EncodedAt<tabletop_t>(1)}, {2, "TABLETOP", EncodedAt<tabletop_t>(2)}});
   std::filesystem::resize_file(in_, std::filesystem::file_size(in_) - 1);
   EXPECT_THAT(ReplayFault(), HasSubstr("cut off after 1 events"));
   EXPECT_THAT(utimes_, ElementsAre(1));
+}
+
+TEST_F(ReplayTest, LosesNoFrameOfADamagedLogWithoutATrace) {
+  std::vector<LogEvent> events;
+  for (int i = 1; i <= 4; ++i) events.push_back({i, "TABLETOP", EncodedAt<tabletop_t>(i)});
+  WriteLog(events);
+  std::ifstream file(in_, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(file), {}};
+  // Frames handled, and whether something was said of the log.
+  const auto replay = [this](const std::string& log) -> std::pair<int, bool> {
+    std::ofstream(in_, std::ios::binary | std::ios::trunc) << log;
+    Shell shell({"module", "module", {}, true});
+    Bus bus(&shell);
+    int num_frames = 0;
+    bus.Subscribe(kTabletop, [&num_frames](const tabletop_t&) { ++num_frames; });
+    try {
+      Replay(in_, "", &shell);
+    } catch (const std::runtime_error&) {
+      return {num_frames, true};
+    }
+    return {num_frames, shell.num_rejected() > 0};
+  };
+  const size_t event_bytes = whole.size() / 4;
+  for (size_t size = 0; size < whole.size(); ++size) {
+    const auto [num_frames, is_told] = replay(whole.substr(0, size));
+    EXPECT_EQ(num_frames, static_cast<int>(size / event_bytes));
+    EXPECT_EQ(is_told, size % event_bytes != 0 || size == 0) << size;
+  }
+  constexpr size_t kHeaderBytes = 28;
+  for (size_t i = 0; i < whole.size(); ++i) {
+    if (i % event_bytes >= kHeaderBytes) continue;
+    std::string damaged = whole;
+    damaged[i] = static_cast<char>(~damaged[i]);
+    const auto [num_frames, is_told] = replay(damaged);
+    EXPECT_TRUE(num_frames == 4 || is_told) << "byte " << i;
+  }
 }
 
 TEST_F(ReplayTest, NamesTheChannelThatALogDoesNotHold) {

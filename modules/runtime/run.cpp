@@ -130,6 +130,9 @@ int RunLive(const CommandLine& line, Shell* shell, std::shared_ptr<void> module)
 
 int RunReplay(const CommandLine& line, Shell* shell, std::shared_ptr<void> module) {
   Replay(line.replay, line.record, shell);
+  if (const std::int64_t num = shell->num_rejected(); num > 0) {
+    shell->Fail(line.replay + ": " + std::to_string(num) + " messages or frames were rejected");
+  }
   module.reset();
   return shell->failed() ? kFailure : kClean;
 }

@@ -103,6 +103,10 @@ void Shell::Skip(std::int64_t num_frames) {
   if (lossless()) Fail("lost a frame in a lossless run: too many wait");
 }
 
+void Shell::ExpectOnly(std::map<std::string, std::set<std::int64_t>> utimes) {
+  expected_ = std::move(utimes);
+}
+
 void Shell::Receive(const std::string& channel, const std::uint8_t* data,
                     std::size_t size) noexcept {
   try {
@@ -125,6 +129,10 @@ void Shell::Accept(std::size_t index, std::size_t port, const std::uint8_t* data
   Part part = std::make_shared<const Bytes>(data, data + size);
   if (subscription.ports.size() == 1) {
     if (!inbox_.Put({index, utime, {std::move(part)}})) Skip(1);
+    return;
+  }
+  if (expected_ && expected_->at(subscription.ports[1 - port].channel).count(utime) == 0) {
+    ++num_left_out_;
     return;
   }
   const std::int64_t num_unpaired = subscription.joiner.num_unpaired();

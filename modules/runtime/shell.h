@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,11 @@ class Shell {
   // Checks a message and puts it in the mailbox. Damaged ones are counted and reported.
   void Receive(const std::string& channel, const std::uint8_t* data, std::size_t size) noexcept;
 
+  // All times [us] at which messages will come, by channel. A message whose partner in a join is
+  // not among them is left out, which loses nothing.
+  void ExpectOnly(std::map<std::string, std::set<std::int64_t>> utimes);
+  std::int64_t num_left_out() const { return num_left_out_; }
+
   // Takes the place of another process: handles nothing until Release(), and then what is later
   // than the last frame of that process [us].
   void Hold() { inbox_.Hold(); }
@@ -114,6 +120,8 @@ class Shell {
   PollFunction poll_;
   Sink sink_;
   std::atomic<bool> failed_{false};
+  std::optional<std::map<std::string, std::set<std::int64_t>>> expected_;
+  std::int64_t num_left_out_ = 0;
 };
 
 }  // namespace declutter::runtime

@@ -77,26 +77,80 @@ TEST_F(LogToolTest, SaysWhatIsDamagedAndCopiesTheRest) {
   EXPECT_THAT(UtimesOf("DEPTH_FRAME", part), SizeIs(50));
 }
 
-TEST_F(LogToolTest, PlaysToAGraphThatListens) {
-  const Outcome doctor = RunLauncher({"doctor"}, asking_);
-  if (doctor.out.find("ok  multicast") == std::string::npos) GTEST_SKIP() << doctor.out;
-  const std::string url =
-      "udpm://239.255.76.67:" + std::to_string(32'100 + getpid() % 600) + "?ttl=0";
-  const std::string again = folder_.Path("again.lcm");
-  Launched launcher({LAUNCHER, "run", LiveGraph(folder_, "", ""), "--only", "filter", "--url", url,
-                     "--record", again, "--log_dir", folder_.Path("logs")},
-                    folder_);
-  ASSERT_TRUE(Eventually([&] { return !UtimesOf("MODULE_STATUS", again).empty(); }));
-  // A live graph takes the newest frame and may miss any one, the last of a playing too.
-  EXPECT_TRUE(Eventually([&] {
-    const Outcome played =
-        Tool({"play", log_, "--channels", "DEPTH_FRAME", "--speed", "2", "--url", url});
-    EXPECT_EQ(played.code, 0) << played.err;
-    const auto utimes = UtimesOf("OBJECTS", again);
-    return std::find(utimes.begin(), utimes.end(), 50) != utimes.end();
-  }));
-  launcher.Signal(SIGTERM);
-  EXPECT_EQ(launcher.Wait().code, 0) << ReadFile(folder_.Path("stderr"));
+// Ours and the stock player of LCM, to a graph of which the source does not run.
+class PlayerTest : public LogToolTest {
+ protected:
+  void PlayUntilTheLastFrameIsAnswered(const std::vector<std::string>& player) {
+    const Outcome doctor = RunLauncher({"doctor"}, asking_);
+    if (doctor.out.find("ok  multicast") == std::string::npos) GTEST_SKIP() << doctor.out;
+    const std::string again = folder_.Path("again.lcm");
+    Launched launcher({LAUNCHER, "run", LiveGraph(folder_, "", ""), "--only", "filter", "--url",
+                       url_, "--record", again, "--log_dir", folder_.Path("logs")},
+                      folder_);
+    ASSERT_TRUE(Eventually([&] { return !UtimesOf("MODULE_STATUS", again).empty(); }));
+    // A live graph takes the newest frame and may miss any one, the last of a playing too.
+    EXPECT_TRUE(Eventually([&] {
+      const Outcome played = Launched(player, asking_).Wait();
+      EXPECT_EQ(played.code, 0) << played.err;
+      const auto utimes = UtimesOf("OBJECTS", again);
+      return std::find(utimes.begin(), utimes.end(), 50) != utimes.end();
+    }));
+    launcher.Signal(SIGTERM);
+    EXPECT_EQ(launcher.Wait().code, 0) << ReadFile(folder_.Path("stderr"));
+  }
+
+  std::string url_ = "udpm://239.255.76.67:" + std::to_string(32'100 + getpid() % 600) + "?ttl=0";
+};
+
+TEST_F(PlayerTest, PlaysToAGraphThatListens) {
+  PlayUntilTheLastFrameIsAnswered(
+      {Program(), "play", log_, "--channels", "DEPTH_FRAME", "--speed", "2", "--url", url_});
+}
+
+TEST_F(PlayerTest, MakesLogsThatTheStockPlayerPlays) {
+  PlayUntilTheLastFrameIsAnswered(
+      {"/usr/bin/lcm-logplayer", "--lcm-url=" + url_, "--speed=2", "--regexp=DEPTH_FRAME", log_});
+}
+
+TEST_F(LogToolTest, FindsEveryMessageInTheLogThatWasPublished) {
+  const Outcome outcome = Tool({"frames", log_});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\n100 messages published by modules, 100 in the log\n"));
+}
+
+TEST_F(LogToolTest, NamesAnEmptyLogWhateverItIsAskedFor) {
+  const std::string empty = folder_.Write("empty.lcm", "");
+  const std::vector<std::vector<std::string>> questions = {
+      {"info", empty},
+      {"frames", empty},
+      {"play", empty},
+      {"cut", empty, folder_.Path("part")},
+      {"top", empty},
+      {"to_pictures", empty, folder_.Path("files")},
+      {"to_pcd", empty, folder_.Path("files")}};
+  for (const auto& question : questions) {
+    const Outcome outcome = Tool(question);
+    EXPECT_EQ(outcome.code, 1) << question[0];
+    EXPECT_THAT(outcome.err, HasSubstr("empty.lcm: holds no events (0 byte)")) << question[0];
+  }
+  EXPECT_FALSE(fs::exists(folder_.Path("part")));
+  for (const Outcome& outcome :
+       {RunLauncher({"run", graph_, "--replay", empty}, folder_),
+        Launched({Fake("fake_filter"), "--replay", empty}, folder_).Wait()}) {
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("empty.lcm: holds no events (0 byte)"));
+  }
+}
+
+TEST_F(LogToolTest, NamesTheStageThatALogDoesNotHold) {
+  const std::string part = folder_.Path("part.lcm");
+  ASSERT_EQ(Tool({"cut", log_, part, "--channels", "OBJECTS"}).code, 0);
+  const Outcome graph = RunLauncher({"run", graph_, "--replay", part}, folder_);
+  EXPECT_EQ(graph.code, 1);
+  EXPECT_THAT(graph.err, HasSubstr("part.lcm: no message on DEPTH_FRAME"));
+  const Outcome module = Launched({Fake("fake_filter"), "--replay", part}, folder_).Wait();
+  EXPECT_EQ(module.code, 1);
+  EXPECT_THAT(module.err, HasSubstr("there is nothing on DEPTH_FRAME"));
 }
 
 TEST_F(LogToolTest, RefusesWhatItCannotDo) {

@@ -73,6 +73,13 @@ TEST_F(LoggerTest, BeginsTheNextFileWhenOneIsFullAndSaysThereTooWhatMadeIt) {
   EXPECT_LT(fs::file_size(File(0)), 4'500'000u);
   // From file to file no frame is missing.
   EXPECT_EQ(UtimesOf("DEPTH_FRAME", File(1)).front(), UtimesOf("DEPTH_FRAME", File(0)).back() + 1);
+  // Joined, they are one log.
+  const std::string joined = folder_.Write("joined.lcm", ReadFile(File(0)) + ReadFile(File(1)));
+  const std::string log_tool = fs::path(LAUNCHER).parent_path() / "log_tool";
+  const Outcome info = Launched({log_tool, "info", joined}, folder_).Wait();
+  EXPECT_EQ(info.code, 0) << info.out << info.err;
+  EXPECT_EQ(UtimesOf("DEPTH_FRAME", joined).size(),
+            UtimesOf("DEPTH_FRAME", File(0)).size() + UtimesOf("DEPTH_FRAME", File(1)).size());
 }
 
 TEST_F(LoggerTest, IsBackInANewFileEachTimeItIsKilled) {
