@@ -54,10 +54,9 @@ void DropAlike(std::vector<Hypothesis>* hypotheses) {
 }  // namespace
 
 HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config, SideDetector detect)
-    : config_(config), detect_(detect) {}
+    : config_(config), detect_(detect), sides_(config), sections_(SectionConfig(config)) {}
 
-HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
-                                       const FeatureCloud& features) const {
+HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCloud& features) {
   HypothesisList list;
   list.header = features.header;
   list.mode = features.mode;
@@ -71,8 +70,9 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
                 static_cast<float>(config_.cell_height_m()));
   SideDetections sides;
   for (int c = 0; c < features.num_components; ++c) {
-    detect_(config_, list.mode, cells[static_cast<size_t>(c)], c,
-            ComponentSeed(config_.seed(), features.header.utime, c), &sides);
+    sides_.fitter.Assign(list.mode, cells[static_cast<size_t>(c)],
+                         ComponentSeed(config_.seed(), features.header.utime, c));
+    detect_(c, &sides_, &sides);
   }
   Surfaces surfaces{std::move(sides.faces), std::move(sides.arcs),
                     FindTopPatches(points, tabletop, X_TC, kMaxTopStep, kMinTopPoints)};
@@ -85,7 +85,7 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
   propose(CompleteCylinders(config_, surfaces));
   AddSidesBelowTops(points, &list.hypotheses);
   if (list.mode == FeatureMode::kDefault) {
-    propose(FindLyingCylinders(config_, points, surfaces.tops, config_.seed()));
+    propose(FindLyingCylinders(config_, points, surfaces.tops, &sections_));
   }
   std::stable_sort(
       list.hypotheses.begin(), list.hypotheses.end(),

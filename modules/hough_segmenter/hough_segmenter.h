@@ -17,11 +17,13 @@ class HoughSegmenter {
   explicit HoughSegmenter(const HoughSegmenterConfig& config, SideDetector detect = DetectSides);
 
   // Hypotheses in C, best first. Tabletop and features must be of the same frame.
-  HypothesisList Segment(const Tabletop& tabletop, const FeatureCloud& features) const;
+  HypothesisList Segment(const Tabletop& tabletop, const FeatureCloud& features);
 
  private:
   HoughSegmenterConfig config_;
   SideDetector detect_;
+  SideSearch sides_;
+  SideSearch sections_;
 };
 
 }  // namespace declutter

@@ -144,14 +144,18 @@ void AddJoined(double max_length, std::vector<Hypothesis>* hypotheses) {
 
 }  // namespace
 
-std::vector<Hypothesis> FindLyingCylinders(const HoughSegmenterConfig& config,
-                                           const std::vector<TablePoint>& points,
-                                           const std::vector<TopPatch>& tops, uint64_t seed) {
+HoughSegmenterConfig SectionConfig(const HoughSegmenterConfig& config) {
   HoughSegmenterConfig section_config = config;
   section_config.set_num_iterations(std::min(config.num_iterations(), kMaxIterations));
   // Curvature is known along horizontal tangents only: here positions and normals decide alone.
-  section_config.set_max_kappa_of_flat(std::numeric_limits<double>::max());
-  section_config.set_min_kappa_radius(0);
+  section_config.set_filter_curvature(false);
+  section_config.set_filter_radius(false);
+  return section_config;
+}
+
+std::vector<Hypothesis> FindLyingCylinders(const HoughSegmenterConfig& config,
+                                           const std::vector<TablePoint>& points,
+                                           const std::vector<TopPatch>& tops, SideSearch* search) {
   const auto max_radius = static_cast<float>(config.max_radius_m());
   std::vector<Hypothesis> hypotheses;
   for (const TopPatch& patch : tops) {
@@ -163,8 +167,8 @@ std::vector<Hypothesis> FindLyingCylinders(const HoughSegmenterConfig& config,
       const auto cells = SideCells(points_L, 1, static_cast<float>(config.cell_side_m()),
                                    static_cast<float>(config.cell_height_m()));
       SideDetections detections;
-      DetectSides(section_config, FeatureMode::kDefault, cells[0], patch.component, seed,
-                  &detections);
+      search->fitter.Assign(FeatureMode::kDefault, cells[0], config.seed());
+      DetectSides(patch.component, search, &detections);
       for (Arc& arc : detections.arcs) {
         if (arc.model.arc < kMinArc || arc.model.c.y() - arc.model.r < -kMaxSink) continue;
         MeasureEnds(points_L, &arc.model);
