@@ -54,7 +54,10 @@ void DropAlike(std::vector<Hypothesis>* hypotheses) {
 }  // namespace
 
 HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config, SideDetector detect)
-    : config_(config), detect_(detect), sides_(config), sections_(SectionConfig(config)) {}
+    : config_(config),
+      detect_(detect),
+      side_search_(config),
+      section_search_(SectionConfig(config)) {}
 
 HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCloud& features) {
   HypothesisList list;
@@ -70,22 +73,24 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCl
                 static_cast<float>(config_.cell_height_m()));
   SideDetections sides;
   for (int c = 0; c < features.num_components; ++c) {
-    sides_.fitter.Assign(list.mode, cells[static_cast<size_t>(c)],
-                         ComponentSeed(config_.seed(), features.header.utime, c));
-    detect_(c, &sides_, &sides);
+    side_search_.fitter.Assign(list.mode, cells[static_cast<size_t>(c)],
+                               ComponentSeed(config_.seed(), features.header.utime, c));
+    detect_(c, &side_search_, &sides);
   }
   Surfaces surfaces{std::move(sides.faces), std::move(sides.arcs),
                     FindTopPatches(points, tabletop, X_TC, kMaxTopStep, kMinTopPoints)};
-  MeasureExtents(points, &surfaces);
+  sides_.Assign(points, [](const TablePoint& point) { return point.is_side(); });
+  MeasureExtents(sides_, &surfaces);
 
   const auto propose = [&list](const std::vector<Hypothesis>& hypotheses) {
     list.hypotheses.insert(list.hypotheses.end(), hypotheses.begin(), hypotheses.end());
   };
   propose(CompleteBoxes(config_, surfaces));
   propose(CompleteCylinders(config_, surfaces));
-  AddSidesBelowTops(points, &list.hypotheses);
+  AddSidesBelowTops(sides_, &list.hypotheses);
   if (list.mode == FeatureMode::kDefault) {
-    propose(FindLyingCylinders(config_, points, surfaces.tops, &sections_));
+    slants_.Assign(points, [](const TablePoint& point) { return point.is_slanted(); });
+    propose(FindLyingCylinders(config_, points, slants_, surfaces.tops, &section_search_));
   }
   std::stable_sort(
       list.hypotheses.begin(), list.hypotheses.end(),

@@ -4,6 +4,7 @@
 #include "modules/geometry/solid.h"
 #include "modules/geometry/tabletop.h"
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
+#include "modules/hough_segmenter/point_grid.h"
 #include "modules/hough_segmenter/side_voting.h"
 
 namespace declutter {
@@ -22,8 +23,10 @@ class HoughSegmenter {
  private:
   HoughSegmenterConfig config_;
   SideDetector detect_;
-  SideSearch sides_;
-  SideSearch sections_;
+  SideSearch side_search_;
+  SideSearch section_search_;
+  PointGrid sides_;
+  PointGrid slants_;
 };
 
 }  // namespace declutter

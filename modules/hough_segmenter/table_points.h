@@ -23,6 +23,8 @@ struct TablePoint {
 
   // Part of a horizontal face, seen from above.
   bool is_top() const { return n_T.z() > 0.90f; }
+  // More than 24 degrees from both: on a box only at its edges.
+  bool is_slanted() const { return n_T.z() > 0.40f && n_T.z() < 0.90f; }
   // Part of a vertical face: its normal is within 30 degrees of the horizontal.
   bool is_side() const { return n_T.z() < 0.50f && n_T.z() > -0.50f; }
 };
