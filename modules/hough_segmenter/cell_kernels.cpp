@@ -307,6 +307,26 @@ void Angles(const float* x, const float* y, size_t num, float cx, float cy, floa
   }
 }
 
+RingCount CountOnRing(const float* x, const float* y, size_t num, const CircleShape& circle,
+                      float tolerance) {
+  const Floats f;
+  const auto square_of = [&](float radius)
+                             HWY_ATTR { return hn::Set(f, radius > 0 ? radius * radius : 0.0f); };
+  const auto outer = square_of(circle.r + tolerance), inner = square_of(circle.r - tolerance),
+             inside = square_of(circle.r - 2 * tolerance);
+  const auto cx = hn::Set(f, circle.cx), cy = hn::Set(f, circle.cy);
+  size_t num_on = 0, num_inside = 0;
+  for (size_t i = 0; i < num; i += hn::Lanes(f)) {
+    const auto dx = hn::Sub(hn::LoadU(f, x + i), cx), dy = hn::Sub(hn::LoadU(f, y + i), cy);
+    const auto square = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+    const auto mask = LanesBelow(num, i);
+    num_on +=
+        hn::CountTrue(f, hn::And(mask, hn::And(hn::Gt(square, inner), hn::Lt(square, outer))));
+    num_inside += hn::CountTrue(f, hn::And(mask, hn::Lt(square, inside)));
+  }
+  return {static_cast<int>(num_on), static_cast<int>(num_inside)};
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace declutter
 HWY_AFTER_NAMESPACE();
@@ -329,6 +349,7 @@ HWY_EXPORT(SumCircle);
 HWY_EXPORT(PositionsAlong);
 HWY_EXPORT(Distances);
 HWY_EXPORT(Angles);
+HWY_EXPORT(CountOnRing);
 
 }  // namespace
 
@@ -394,6 +415,11 @@ void Distances(const float* x, const float* y, size_t num, float cx, float cy, f
 void Angles(const float* x, const float* y, size_t num, float cx, float cy, float ax, float ay,
             float* angles) {
   HWY_DYNAMIC_DISPATCH(Angles)(x, y, num, cx, cy, ax, ay, angles);
+}
+
+RingCount CountOnRing(const float* x, const float* y, size_t num, const CircleShape& circle,
+                      float tolerance) {
+  return HWY_DYNAMIC_DISPATCH(CountOnRing)(x, y, num, circle, tolerance);
 }
 
 }  // namespace declutter

@@ -91,4 +91,12 @@ void Distances(const float* x, const float* y, size_t num, float cx, float cy, f
 void Angles(const float* x, const float* y, size_t num, float cx, float cy, float ax, float ay,
             float* angles);
 
+// Points within tolerance of a circle, and those farther inside than twice that.
+struct RingCount {
+  int num_on = 0;
+  int num_inside = 0;
+};
+RingCount CountOnRing(const float* x, const float* y, size_t num, const CircleShape& circle,
+                      float tolerance);
+
 }  // namespace declutter

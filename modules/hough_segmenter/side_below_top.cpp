@@ -37,19 +37,28 @@ class Footprint {
     const Eigen::Vector2f p_T = point.p_T.head<2>() - centre_;
     if (p_T.cwiseAbs().maxCoeff() > reach_ + tolerance) return false;
     const Eigen::Vector2f p = ToO(p_T);
-    const Eigen::Vector2f n = ToO(point.n_T.head<2>()).normalized();
+    const Eigen::Vector2f n = ToO(point.n_T.head<2>());
+    const float min_cos = kMinCos * n.norm();
     if (is_round_) {
       const float distance = p.norm();
-      return std::abs(distance - half_.x()) < tolerance && n.dot(p) > kMinCos * distance;
+      return std::abs(distance - half_.x()) < tolerance && n.dot(p) > min_cos * distance;
     }
     for (int axis = 0; axis < 2; ++axis) {
       if (std::abs(std::abs(p[axis]) - half_[axis]) < tolerance &&
           std::abs(p[1 - axis]) < half_[1 - axis] &&
-          std::copysign(1.0f, p[axis]) * n[axis] > kMinCos) {
+          std::copysign(1.0f, p[axis]) * n[axis] > min_cos) {
         return true;
       }
     }
     return false;
+  }
+
+  // False for a square of the grid, given by its middle in T, that lies well inside.
+  bool MayHaveSide(const Eigen::Vector2f& middle, float max_sigma) const {
+    const Eigen::Vector2f p = ToO(middle - centre_);
+    const float reach = Tolerance(max_sigma) + PointGrid::kHalfDiagonal;
+    return is_round_ ? p.norm() > half_.x() - reach
+                     : std::abs(p.x()) > half_.x() - reach || std::abs(p.y()) > half_.y() - reach;
   }
 
  private:
@@ -78,9 +87,14 @@ void AddSidesBelowTops(const PointGrid& sides, std::vector<Hypothesis>* hypothes
         static_cast<float>(taller.solid.X_CO.translation().z() + 0.5 * taller.solid.height());
     const Footprint footprint(taller.solid);
     heights.clear();
-    sides.ForEachIn(footprint.Box(sides.max_sigma()), [&](const TablePoint& point) {
-      if (point.p_T.z() < top && footprint.IsOnSide(point)) heights.push_back(point.p_T.z());
-    });
+    sides.ForEachIn(
+        footprint.Box(sides.max_sigma()),
+        [&](const Eigen::Vector2f& middle) {
+          return footprint.MayHaveSide(middle, sides.max_sigma());
+        },
+        [&](const TablePoint& point) {
+          if (point.p_T.z() < top && footprint.IsOnSide(point)) heights.push_back(point.p_T.z());
+        });
     if (heights.size() < kMinPoints) continue;
     taller.num_inliers += static_cast<int>(heights.size());
     const float bottom = BottomOf(Quantile(&heights, 0.02));
