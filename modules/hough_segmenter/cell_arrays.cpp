@@ -31,14 +31,6 @@ void CellArrays::Set(size_t i, const SideCell& cell, size_t index, float inlier_
   field(kIndex)[i] = static_cast<float>(index);
 }
 
-void CellArrays::Copy(const CellArrays& from) {
-  num_ = from.num_;
-  stride_ = from.stride_;
-  const size_t size = kNumFields * stride_;
-  if (values_.size() < size) values_.resize(size);
-  std::copy_n(from.values_.begin(), size, values_.begin());
-}
-
 void CellArrays::CopyMarked(const CellArrays& from, const std::vector<float>& marks) {
   const size_t num = from.num_;
   if (this != &from) Resize(num);

@@ -33,9 +33,8 @@ class CellArrays {
   // inlier_distance_m: smallest distance at which a cell is an inlier (HoughSegmenterConfig).
   void Set(size_t i, const SideCell& cell, size_t index, float inlier_distance_m);
 
-  void Copy(const CellArrays& from);
-  // The cells of another one for which marks are positive. marks is as long as from, and
-  // kCellBlock elements more.
+  // The cells of another one for which marks are positive, in the same order. marks is as long as
+  // from, and kCellBlock elements more.
   void CopyMarked(const CellArrays& from, const std::vector<float>& marks);
   // Drops the cells for which marks are not positive.
   void KeepMarked(const std::vector<float>& marks) { CopyMarked(*this, marks); }

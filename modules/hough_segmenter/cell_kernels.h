@@ -17,7 +17,7 @@ struct CellView {
   const float* nx = nullptr;  // of the unit normal
   const float* ny = nullptr;
   const float* inverse_limit = nullptr;  // [1/m^2] of the squared distance of an inlier
-  const float* weight = nullptr;         // [px]
+  const float* weight = nullptr;         // [px] 0 where a cell is not to be looked at
   size_t num = 0;
 
   CellView Part(size_t begin, size_t num_of_part) const {
@@ -34,8 +34,9 @@ struct CircleShape {
   float cx = 0, cy = 0, r = 0;
 };
 
-// How well each cell agrees with a model: 0 no inlier, 1 exactly on it with the same normal
-// (equation 1). min_cos: of the angle between the normals of an inlier and of its model.
+// How well each cell agrees with a model: 0 no inlier or of no weight, 1 exactly on it with the
+// same normal (equation 1). min_cos: of the angle between the normals of an inlier and of its
+// model.
 void Agreements(const CellView& cells, const LineShape& line, float min_cos, float* agreements);
 void Agreements(const CellView& cells, const CircleShape& circle, float min_cos, float* agreements);
 

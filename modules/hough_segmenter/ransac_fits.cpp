@@ -39,32 +39,44 @@ void SideFitter::Assign(FeatureMode mode, const std::vector<SideCell>& cells, ui
     open_.Set(i, cells[order_[i]], order_[i], static_cast<float>(config_.inlier_distance_m()));
   }
   buckets_.Assign(cells);
+  place_.resize(cells.size());
   Restart();
 }
 
 void SideFitter::Restart() {
-  left_.Copy(open_);
+  num_left_ = open_.size();
+  const float* weights = open_.field(CellArrays::kWeight);
+  left_weights_.assign(weights, weights + num_left_ + kCellBlock);
+  num_points_left_ = open_.NumPoints();
+  for (size_t i = 0; i < num_left_; ++i) place_[open_.IndexOf(i)] = i;
   buckets_.Restore();
-}
-
-void SideFitter::Drop(const CellSet& set, CellArrays* arrays) {
-  marks_.resize(arrays->size() + kCellBlock);
-  for (size_t i = 0; i < arrays->size(); ++i) {
-    marks_[i] = set.Contains(arrays->IndexOf(i)) ? 0.0f : 1.0f;
-  }
-  arrays->KeepMarked(marks_);
 }
 
 void SideFitter::Take(const CellSet& inliers) {
-  Drop(inliers, &left_);
-  inliers.ForEach([this](size_t i) { buckets_.Remove(i); });
+  inliers.ForEach([this](size_t cell) {
+    float& weight = left_weights_[place_[cell]];
+    num_points_left_ -= weight;
+    weight = 0;
+    --num_left_;
+    buckets_.Remove(cell);
+  });
 }
 
 void SideFitter::Explain(const CellSet& cells) {
-  Drop(cells, &open_);
+  marks_.resize(open_.size() + kCellBlock);
+  for (size_t i = 0; i < open_.size(); ++i) {
+    marks_[i] = cells.Contains(open_.IndexOf(i)) ? 0.0f : 1.0f;
+  }
+  open_.KeepMarked(marks_);
   buckets_.Restore();
   cells.ForEach([this](size_t i) { buckets_.Remove(i); });
   buckets_.Keep();
+}
+
+CellView SideFitter::OpenCells(const float* weights) const {
+  CellView cells = open_.view();
+  cells.weight = weights;
+  return cells;
 }
 
 std::optional<LineModel> SideFitter::ModelThrough(size_t a, size_t b, const LineModel*) const {
@@ -94,7 +106,9 @@ template <typename Model>
 void SideFitter::DrawCandidates(std::vector<Candidate<Model>>* candidates) {
   candidates->clear();
   for (int i = 0; i < config_.num_samples(); ++i) {
-    const size_t a = left_.IndexOf(random_(left_.size()));
+    size_t place = random_(open_.size());
+    while (left_weights_[place] == 0) place = random_(open_.size());
+    const size_t a = open_.IndexOf(place);
     for (int draw = 0; draw < kMaxDraws; ++draw) {
       const auto b = buckets_.DrawNear(a, &random_);
       if (!b || ((*cells_)[a].p - (*cells_)[*b].p).norm() <= kMinBaseline) continue;
@@ -107,14 +121,19 @@ void SideFitter::DrawCandidates(std::vector<Candidate<Model>>* candidates) {
 
 template <typename Model>
 bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* fit) {
-  if (left_.NumPoints() < static_cast<float>(config_.min_inliers())) return false;
+  if (num_left_ == 0 || num_points_left_ < static_cast<float>(config_.min_inliers())) return false;
   DrawCandidates(candidates);
   if (candidates->empty()) return false;
-  const size_t num_scored = std::min(left_.size(), kMaxScoredCells);
-  const size_t begin = random_(left_.size() - num_scored + 1);
-  const size_t num_first = std::min(num_scored, kFirstScoredCells);
+  // Parts of the open cells in which about so many are left.
+  const auto part_with = [this](size_t num) {
+    return std::min(open_.size(), num * open_.size() / num_left_);
+  };
+  const size_t num_scored = part_with(kMaxScoredCells);
+  const size_t num_first = part_with(kFirstScoredCells);
+  const size_t begin = random_(open_.size() - num_scored + 1);
   const auto is_better = [](const auto& x, const auto& y) { return x.score > y.score; };
-  const CellView first = left_.view().Part(begin, num_first);
+  const CellView left = OpenCells(left_weights_.data());
+  const CellView first = left.Part(begin, num_first);
   for (auto& candidate : *candidates) {
     candidate.score = SampleSupport(first, ShapeOf(candidate.model), min_cos_);
   }
@@ -122,14 +141,14 @@ bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* 
     std::stable_sort(candidates->begin(), candidates->end(), is_better);
     candidates->resize(
         std::min(candidates->size(), std::max(kMinFinalists, candidates->size() / 4)));
-    const CellView rest = left_.view().Part(begin + num_first, num_scored - num_first);
+    const CellView rest = left.Part(begin + num_first, num_scored - num_first);
     for (auto& candidate : *candidates) {
       candidate.score += SampleSupport(rest, ShapeOf(candidate.model), min_cos_);
     }
   }
   // The first of the best ones.
   const auto best = std::min_element(candidates->begin(), candidates->end(), is_better);
-  return best->score > 0 && RefitTo(best->model, left_, fit);
+  return best->score > 0 && RefitTo(best->model, left_weights_.data(), fit);
 }
 
 void SideFitter::Filter(LineModel* line) {
@@ -174,23 +193,24 @@ bool SideFitter::IsPossible(const CircleModel& circle, float slack) const {
 }
 
 template <typename Model>
-bool SideFitter::FindInliers(const CellArrays& among, Model* model) {
+bool SideFitter::FindInliers(const float* weights, Model* model) {
   const auto min_points = static_cast<float>(config_.min_inliers());
-  marks_.resize(among.size() + kCellBlock);
-  Agreements(among.view(), ShapeOf(*model), min_cos_, marks_.data());
-  inliers_.CopyMarked(among, marks_);
+  const CellView cells = OpenCells(weights);
+  marks_.resize(cells.num + kCellBlock);
+  Agreements(cells, ShapeOf(*model), min_cos_, marks_.data());
+  inliers_.CopyMarked(open_, marks_);
   if (inliers_.NumPoints() < min_points) return false;
   Filter(model);
   return inliers_.NumPoints() >= min_points;
 }
 
 template <typename Model>
-bool SideFitter::RefitTo(Model model, const CellArrays& among, Fit<Model>* fit) {
-  if (!FindInliers(among, &model)) return false;
+bool SideFitter::RefitTo(Model model, const float* weights, Fit<Model>* fit) {
+  if (!FindInliers(weights, &model)) return false;
   SetExtent(inliers_, &model);
   if (!IsPossible(model, kSlackBeforeRefit)) return false;
   FitToInliers(inliers_, &model);
-  if (!FindInliers(among, &model)) return false;
+  if (!FindInliers(weights, &model)) return false;
   SetExtent(inliers_, &model);
   if (!IsPossible(model, 1)) return false;
   fit->model = model;
@@ -205,10 +225,12 @@ bool SideFitter::FitLine(LineFit* fit) { return FitBest(&lines_, fit); }
 
 bool SideFitter::FitCircle(CircleFit* fit) { return FitBest(&circles_, fit); }
 
-bool SideFitter::Refit(const LineModel& model, LineFit* fit) { return RefitTo(model, open_, fit); }
+bool SideFitter::Refit(const LineModel& model, LineFit* fit) {
+  return RefitTo(model, open_.field(CellArrays::kWeight), fit);
+}
 
 bool SideFitter::Refit(const CircleModel& model, CircleFit* fit) {
-  return RefitTo(model, open_, fit);
+  return RefitTo(model, open_.field(CellArrays::kWeight), fit);
 }
 
 }  // namespace declutter

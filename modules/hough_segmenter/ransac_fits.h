@@ -63,9 +63,10 @@ class SideFitter {
   template <typename Model>
   bool FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* fit);
 
-  // Fills inliers_ with the filtered inliers of a model; false when they have fewer than N points.
+  // Fills inliers_ with the filtered inliers of a model among the open cells with a weight; false
+  // when they have fewer than N points.
   template <typename Model>
-  bool FindInliers(const CellArrays& among, Model* model);
+  bool FindInliers(const float* weights, Model* model);
   void Filter(LineModel* line);
   void Filter(CircleModel* circle);
   // Whether curvature and radius allow that inliers_ are those of the model, or of one whose
@@ -76,10 +77,10 @@ class SideFitter {
   // Inliers, least squares and inliers again; false when fewer than N points are left, or those of
   // a model that cannot be.
   template <typename Model>
-  bool RefitTo(Model model, const CellArrays& among, Fit<Model>* fit);
+  bool RefitTo(Model model, const float* weights, Fit<Model>* fit);
 
-  // Drops the cells of a set.
-  void Drop(const CellSet& set, CellArrays* arrays);
+  // The open cells with other weights.
+  CellView OpenCells(const float* weights) const;
 
   HoughSegmenterConfig config_;
   float min_cos_;  // of the angle between the normals of an inlier and of its model
@@ -87,8 +88,11 @@ class SideFitter {
   FeatureMode mode_ = FeatureMode::kDefault;
   const std::vector<SideCell>* cells_ = nullptr;
   RandomIndex random_{0};
-  CellArrays open_;  // in random order: each part of it is a random sample
-  CellArrays left_;  // in this iteration
+  CellArrays open_;                  // in random order: each part of it is a random sample
+  std::vector<size_t> place_;        // in open_ of each open cell
+  std::vector<float> left_weights_;  // of the open cells, 0 when taken in this iteration
+  size_t num_left_ = 0;              // cells
+  float num_points_left_ = 0;        // [px]
   CellArrays inliers_;
   CellBuckets buckets_;  // of the cells that are left
   std::vector<float> marks_;
