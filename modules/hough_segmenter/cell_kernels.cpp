@@ -188,14 +188,22 @@ size_t CopyMarked(const float* marks, size_t num, size_t num_fields, const float
 
 Range RangeOf(const float* values, size_t num) {
   const Floats f;
-  auto low = hn::Set(f, values[0]), high = low;
-  for (size_t i = 0; i < num; i += hn::Lanes(f)) {
-    const auto value =
-        hn::IfThenElse(LanesBelow(num, i), hn::LoadU(f, values + i), hn::Set(f, values[0]));
-    low = hn::Min(low, value);
-    high = hn::Max(high, value);
+  const size_t lanes = hn::Lanes(f);
+  Range range{values[0], values[0]};
+  size_t i = 0;
+  if (num >= lanes) {
+    auto low = hn::LoadU(f, values), high = low;
+    for (i = lanes; i + lanes <= num; i += lanes) {
+      const auto value = hn::LoadU(f, values + i);
+      low = hn::Min(low, value);
+      high = hn::Max(high, value);
+    }
+    range = {hn::GetLane(hn::MinOfLanes(f, low)), hn::GetLane(hn::MaxOfLanes(f, high))};
   }
-  return {hn::GetLane(hn::MinOfLanes(f, low)), hn::GetLane(hn::MaxOfLanes(f, high))};
+  for (; i < num; ++i) {
+    range = {HWY_MIN(range.low, values[i]), HWY_MAX(range.high, values[i])};
+  }
+  return range;
 }
 
 float SumOf(const float* values, size_t num) {

@@ -58,7 +58,7 @@ struct Range {
   float low = 0;
   float high = 0;
 };
-// Of num > 0 values.
+// Of num > 0 values, and reads no others.
 Range RangeOf(const float* values, size_t num);
 
 float SumOf(const float* values, size_t num);

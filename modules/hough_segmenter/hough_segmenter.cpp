@@ -78,7 +78,7 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCl
     detect_(c, &side_search_, &sides);
   }
   Surfaces surfaces{std::move(sides.faces), std::move(sides.arcs),
-                    FindTopPatches(points, tabletop, X_TC, kMaxTopStep, kMinTopPoints)};
+                    tops_.Find(points, tabletop, X_TC, kMaxTopStep, kMinTopPoints)};
   sides_.Assign(points, [](const TablePoint& point) { return point.is_side(); });
   MeasureExtents(sides_, &surfaces);
 

@@ -6,6 +6,7 @@
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
 #include "modules/hough_segmenter/point_grid.h"
 #include "modules/hough_segmenter/side_voting.h"
+#include "modules/hough_segmenter/top_patches.h"
 
 namespace declutter {
 
@@ -25,6 +26,7 @@ class HoughSegmenter {
   SideDetector detect_;
   SideSearch side_search_;
   SideSearch section_search_;
+  TopPatchFinder tops_;
   PointGrid sides_;
   PointGrid slants_;
 };
