@@ -67,10 +67,10 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCl
   if (list.planes.empty() || features.points.empty()) return list;
 
   const Eigen::Isometry3d X_TC = TableFrame(list.planes[0]);
-  const std::vector<TablePoint> points = TablePoints(tabletop, features, X_TC);
-  const std::vector<std::vector<SideCell>> cells =
-      SideCells(points, features.num_components, static_cast<float>(config_.cell_side_m()),
-                static_cast<float>(config_.cell_height_m()));
+  FindTablePoints(tabletop, features, X_TC, &points_);
+  const std::vector<std::vector<SideCell>>& cells =
+      cells_.Gather(points_, features.num_components, static_cast<float>(config_.cell_side_m()),
+                    static_cast<float>(config_.cell_height_m()));
   SideDetections sides;
   for (int c = 0; c < features.num_components; ++c) {
     side_search_.fitter.Assign(list.mode, cells[static_cast<size_t>(c)],
@@ -78,8 +78,8 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCl
     detect_(c, &side_search_, &sides);
   }
   Surfaces surfaces{std::move(sides.faces), std::move(sides.arcs),
-                    tops_.Find(points, tabletop, X_TC, kMaxTopStep, kMinTopPoints)};
-  sides_.Assign(points, [](const TablePoint& point) { return point.is_side(); });
+                    tops_.Find(points_, tabletop, X_TC, kMaxTopStep, kMinTopPoints)};
+  sides_.Assign(points_, [](const TablePoint& point) { return point.is_side(); });
   MeasureExtents(sides_, &surfaces);
 
   const auto propose = [&list](const std::vector<Hypothesis>& hypotheses) {
@@ -89,8 +89,9 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCl
   propose(CompleteCylinders(config_, surfaces));
   AddSidesBelowTops(sides_, &list.hypotheses);
   if (list.mode == FeatureMode::kDefault) {
-    slants_.Assign(points, [](const TablePoint& point) { return point.is_slanted(); });
-    propose(FindLyingCylinders(config_, points, slants_, surfaces.tops, &section_search_));
+    slants_.Assign(points_, [](const TablePoint& point) { return point.is_slanted(); });
+    propose(
+        FindLyingCylinders(config_, points_, slants_, surfaces.tops, &cells_, &section_search_));
   }
   std::stable_sort(
       list.hypotheses.begin(), list.hypotheses.end(),

@@ -24,6 +24,9 @@ class HoughSegmenter {
  private:
   HoughSegmenterConfig config_;
   SideDetector detect_;
+  // Memory that is used again.
+  std::vector<TablePoint> points_;
+  SideCells cells_;
   SideSearch side_search_;
   SideSearch section_search_;
   TopPatchFinder tops_;

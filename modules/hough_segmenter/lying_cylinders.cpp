@@ -46,7 +46,7 @@ class Section {
   // Around all of it, in the xy plane of T.
   const Eigen::AlignedBox2f& box_T() const { return box_T_; }
 
-  bool Contains(const TablePoint& point) const {
+  bool Contains(const SurfacePoint& point) const {
     if (point.component != patch_.component || point.p_T.z() > patch_.height + 0.01f) return false;
     const float x = frame_.across().dot(point.p_T.head<2>());
     const float z = frame_.axis.dot(point.p_T.head<2>());
@@ -76,17 +76,18 @@ std::vector<TablePoint> RoundPoints(const std::vector<TablePoint>& points, const
                                     const TopPatch& patch, const Section& section, int min_points) {
   constexpr float kShareOfTop = 0.8f;  // of the points of a patch that are surely in the section
   float num_slanted = 0;
-  slants.ForEachIn(section.box_T(), [&](const TablePoint& point) {
+  slants.ForEachIn(section.box_T(), [&](const SurfacePoint& point) {
     if (section.Contains(point)) ++num_slanted;
   });
   std::vector<TablePoint> selected;
   const auto is_round = [&](float num_points) { return num_slanted > kMinRoundShare * num_points; };
   if (!is_round(kShareOfTop * static_cast<float>(patch.points.size()))) return selected;
   for (const TablePoint& point : points) {
-    if (section.Contains(point)) selected.push_back(section.InFrame(point));
+    if (!section.Contains(point)) continue;
+    selected.push_back(section.InFrame(point));
+    if (!is_round(static_cast<float>(selected.size()))) return {};
   }
-  const auto num = static_cast<float>(selected.size());
-  if (num < static_cast<float>(min_points) || !is_round(num)) selected.clear();
+  if (static_cast<int>(selected.size()) < min_points) selected.clear();
   return selected;
 }
 
@@ -119,8 +120,9 @@ void MeasureEnds(const std::vector<TablePoint>& points_L, CircleModel* circle) {
     }
   }
   if (along.size() < 20) return;
-  circle->z_min = Quantile(&along, 0.005);
-  circle->z_max = Quantile(&along, 0.995);
+  const Range ends = Quantiles(&along, 0.005, 0.995);
+  circle->z_min = ends.low;
+  circle->z_max = ends.high;
 }
 
 // Two visible parts of one cylinder with an occluder between them, as one; nothing when they are
@@ -177,7 +179,8 @@ HoughSegmenterConfig SectionConfig(const HoughSegmenterConfig& config) {
 std::vector<Hypothesis> FindLyingCylinders(const HoughSegmenterConfig& config,
                                            const std::vector<TablePoint>& points,
                                            const PointGrid& slants,
-                                           const std::vector<TopPatch>& tops, SideSearch* search) {
+                                           const std::vector<TopPatch>& tops, SideCells* side_cells,
+                                           SideSearch* search) {
   const auto max_radius = static_cast<float>(config.max_radius_m());
   std::vector<Hypothesis> hypotheses;
   for (const TopPatch& patch : tops) {
@@ -187,8 +190,8 @@ std::vector<Hypothesis> FindLyingCylinders(const HoughSegmenterConfig& config,
       const std::vector<TablePoint> points_L = RoundPoints(
           points, slants, patch, Section(patch, section, max_radius), config.min_inliers());
       if (points_L.empty()) continue;
-      const auto cells = SideCells(points_L, 1, static_cast<float>(config.cell_side_m()),
-                                   static_cast<float>(config.cell_height_m()));
+      const auto& cells = side_cells->Gather(points_L, 1, static_cast<float>(config.cell_side_m()),
+                                             static_cast<float>(config.cell_height_m()));
       SideDetections detections;
       search->fitter.Assign(FeatureMode::kDefault, cells[0], config.seed());
       DetectSides(patch.component, search, &detections);

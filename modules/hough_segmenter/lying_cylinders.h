@@ -20,6 +20,7 @@ HoughSegmenterConfig SectionConfig(const HoughSegmenterConfig& config);
 std::vector<Hypothesis> FindLyingCylinders(const HoughSegmenterConfig& config,
                                            const std::vector<TablePoint>& points,
                                            const PointGrid& slants,
-                                           const std::vector<TopPatch>& tops, SideSearch* search);
+                                           const std::vector<TopPatch>& tops, SideCells* side_cells,
+                                           SideSearch* search);
 
 }  // namespace declutter

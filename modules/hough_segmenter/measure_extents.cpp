@@ -26,7 +26,7 @@ void Measure(const PointGrid& sides, Face* face, std::vector<float>* s_values,
       [&](const Eigen::Vector2f& middle) {
         return std::abs(line.n.dot(middle) - line.rho) < reach + PointGrid::kHalfDiagonal;
       },
-      [&](const TablePoint& point) {
+      [&](const SurfacePoint& point) {
         if (point.component != face->component) return;
         const Eigen::Vector2f p = point.p_T.head<2>();
         const float s = line.tangent().dot(p);
@@ -39,10 +39,12 @@ void Measure(const PointGrid& sides, Face* face, std::vector<float>* s_values,
         z_values->push_back(point.p_T.z());
       });
   if (s_values->size() < 20) return;
-  line.s_min = Quantile(s_values, 0.005);
-  line.s_max = Quantile(s_values, 0.995);
-  line.z_min = Quantile(z_values, 0.01);
-  line.z_max = Quantile(z_values, 0.99);
+  const Range s_range = Quantiles(s_values, 0.005, 0.995);
+  const Range z_range = Quantiles(z_values, 0.01, 0.99);
+  line.s_min = s_range.low;
+  line.s_max = s_range.high;
+  line.z_min = z_range.low;
+  line.z_max = z_range.high;
 }
 
 void Measure(const PointGrid& sides, Arc* arc, std::vector<float>* z_values) {
@@ -55,7 +57,7 @@ void Measure(const PointGrid& sides, Arc* arc, std::vector<float>* z_values) {
       [&](const Eigen::Vector2f& middle) {
         return std::abs((middle - circle.c).norm() - circle.r) < reach + PointGrid::kHalfDiagonal;
       },
-      [&](const TablePoint& point) {
+      [&](const SurfacePoint& point) {
         if (point.component != arc->component) return;
         const Eigen::Vector2f q = point.p_T.head<2>() - circle.c;
         if (std::abs(q.norm() - circle.r) > std::max(kMaxDistance, 2.5f * point.sigma) ||
@@ -67,8 +69,9 @@ void Measure(const PointGrid& sides, Arc* arc, std::vector<float>* z_values) {
         z_values->push_back(point.p_T.z());
       });
   if (z_values->size() < 20) return;
-  circle.z_min = Quantile(z_values, 0.01);
-  circle.z_max = Quantile(z_values, 0.99);
+  const Range z_range = Quantiles(z_values, 0.01, 0.99);
+  circle.z_min = z_range.low;
+  circle.z_max = z_range.high;
 }
 
 }  // namespace

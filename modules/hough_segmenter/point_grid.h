@@ -17,13 +17,12 @@ class PointGrid {
   static constexpr float kSide = 0.02f;             // [m]
   static constexpr float kHalfDiagonal = 0.01415f;  // [m]
 
-  // Takes the points for which condition(point) holds; they must outlive the queries.
+  // Takes the points for which condition(point) holds.
   template <typename Condition>
   void Assign(const std::vector<TablePoint>& points, Condition condition) {
-    points_ = points.data();
-    selected_.clear();
-    for (size_t i = 0; i < points.size(); ++i) {
-      if (condition(points[i])) selected_.push_back(static_cast<uint32_t>(i));
+    points_.clear();
+    for (const TablePoint& point : points) {
+      if (condition(point)) points_.push_back(point);
     }
     Sort();
   }
@@ -41,7 +40,7 @@ class PointGrid {
                                                     static_cast<float>(row) + 0.5f))) {
           continue;
         }
-        for (uint32_t k = begin_[square]; k < begin_[square + 1]; ++k) visit(points_[sorted_[k]]);
+        for (uint32_t k = begin_[square]; k < begin_[square + 1]; ++k) visit(sorted_[k]);
       }
     }
   }
@@ -64,15 +63,14 @@ class PointGrid {
             static_cast<int>(std::clamp(q.y(), 0.0f, static_cast<float>(num_rows_ - 1)))};
   }
 
-  const TablePoint* points_ = nullptr;
   Eigen::Vector2f low_ = Eigen::Vector2f::Zero();
   int num_columns_ = 1;
   int num_rows_ = 1;
   float max_sigma_ = 0;
-  std::vector<uint32_t> selected_;
-  std::vector<uint32_t> square_;  // of each selected point
-  std::vector<uint32_t> begin_ = {0, 0};
-  std::vector<uint32_t> sorted_;  // by square
+  std::vector<SurfacePoint> points_;
+  std::vector<uint32_t> square_;          // of each point
+  std::vector<uint32_t> begin_ = {0, 0};  // of each square in sorted_
+  std::vector<SurfacePoint> sorted_;      // by square
 };
 
 }  // namespace declutter

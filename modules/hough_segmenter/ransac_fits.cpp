@@ -44,6 +44,7 @@ void SideFitter::Assign(FeatureMode mode, const std::vector<SideCell>& cells, ui
 }
 
 void SideFitter::Restart() {
+  pairs_.clear();
   num_left_ = open_.size();
   const float* weights = open_.field(CellArrays::kWeight);
   left_weights_.assign(weights, weights + num_left_ + kCellBlock);
@@ -53,6 +54,7 @@ void SideFitter::Restart() {
 }
 
 void SideFitter::Take(const CellSet& inliers) {
+  pairs_.clear();
   inliers.ForEach([this](size_t cell) {
     float& weight = left_weights_[place_[cell]];
     num_points_left_ -= weight;
@@ -102,9 +104,7 @@ std::optional<CircleModel> SideFitter::ModelThrough(size_t a, size_t b, const Ci
   return circle;
 }
 
-template <typename Model>
-void SideFitter::DrawCandidates(std::vector<Candidate<Model>>* candidates) {
-  candidates->clear();
+void SideFitter::DrawPairs() {
   for (int i = 0; i < config_.num_samples(); ++i) {
     size_t place = random_(open_.size());
     while (left_weights_[place] == 0) place = random_(open_.size());
@@ -112,17 +112,26 @@ void SideFitter::DrawCandidates(std::vector<Candidate<Model>>* candidates) {
     for (int draw = 0; draw < kMaxDraws; ++draw) {
       const auto b = buckets_.DrawNear(a, &random_);
       if (!b || ((*cells_)[a].p - (*cells_)[*b].p).norm() <= kMinBaseline) continue;
-      const auto model = ModelThrough(a, *b, static_cast<const Model*>(nullptr));
-      if (model) candidates->push_back({*model});
+      pairs_.emplace_back(a, *b);
       break;
     }
   }
 }
 
 template <typename Model>
+void SideFitter::FindCandidates(std::vector<Candidate<Model>>* candidates) {
+  if (pairs_.empty()) DrawPairs();
+  candidates->clear();
+  for (const auto& [a, b] : pairs_) {
+    const auto model = ModelThrough(a, b, static_cast<const Model*>(nullptr));
+    if (model) candidates->push_back({*model});
+  }
+}
+
+template <typename Model>
 bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* fit) {
   if (num_left_ == 0 || num_points_left_ < static_cast<float>(config_.min_inliers())) return false;
-  DrawCandidates(candidates);
+  FindCandidates(candidates);
   if (candidates->empty()) return false;
   // Parts of the open cells in which about so many are left.
   const auto part_with = [this](size_t num) {

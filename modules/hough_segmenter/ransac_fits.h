@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "modules/geometry/feature_cloud.h"
@@ -53,9 +54,11 @@ class SideFitter {
     float score = 0;  // [px] support
   };
 
-  // Samples of two cells that agree with the model through them.
+  // Draws num_samples pairs of cells that are left, near each other, for both shapes.
+  void DrawPairs();
+  // The models through pairs whose cells agree with them.
   template <typename Model>
-  void DrawCandidates(std::vector<Candidate<Model>>* candidates);
+  void FindCandidates(std::vector<Candidate<Model>>* candidates);
   std::optional<LineModel> ModelThrough(size_t a, size_t b, const LineModel*) const;
   std::optional<CircleModel> ModelThrough(size_t a, size_t b, const CircleModel*) const;
 
@@ -97,6 +100,7 @@ class SideFitter {
   CellBuckets buckets_;  // of the cells that are left
   std::vector<float> marks_;
   std::vector<size_t> order_;
+  std::vector<std::pair<size_t, size_t>> pairs_;  // of cells; empty until they are drawn
   std::vector<Candidate<LineModel>> lines_;
   std::vector<Candidate<CircleModel>> circles_;
 };

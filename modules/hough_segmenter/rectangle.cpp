@@ -56,15 +56,17 @@ Rectangle FromFace(const Face& face) {
 Rectangle Around(const TopPatch& patch, const Eigen::Vector2f& axis) {
   Rectangle r;
   r.axis = axis;
-  std::vector<float> a, b;
-  for (const Eigen::Vector2f& p : patch.points) {
-    a.push_back(axis.dot(p));
-    b.push_back(r.perpendicular().dot(p));
+  std::vector<float> a(patch.points.size()), b(patch.points.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    a[i] = axis.dot(patch.points[i]);
+    b[i] = r.perpendicular().dot(patch.points[i]);
   }
-  r.a_min = Quantile(&a, 0.005);
-  r.a_max = Quantile(&a, 0.995);
-  r.b_min = Quantile(&b, 0.005);
-  r.b_max = Quantile(&b, 0.995);
+  const Range a_range = Quantiles(&a, 0.005, 0.995);
+  const Range b_range = Quantiles(&b, 0.005, 0.995);
+  r.a_min = a_range.low;
+  r.a_max = a_range.high;
+  r.b_min = b_range.low;
+  r.b_max = b_range.high;
   r.z_max = patch.height;
   r.z_min = std::max(0.0f, patch.height - kTopOnlyDepth);
   r.component = patch.component;

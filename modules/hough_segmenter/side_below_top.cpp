@@ -32,7 +32,7 @@ class Footprint {
   }
 
   // True for a point on the side whose normal, as far as it is horizontal, is that of the side.
-  bool IsOnSide(const TablePoint& point) const {
+  bool IsOnSide(const SurfacePoint& point) const {
     const float tolerance = Tolerance(point.sigma);
     const Eigen::Vector2f p_T = point.p_T.head<2>() - centre_;
     if (p_T.cwiseAbs().maxCoeff() > reach_ + tolerance) return false;
@@ -92,7 +92,7 @@ void AddSidesBelowTops(const PointGrid& sides, std::vector<Hypothesis>* hypothes
         [&](const Eigen::Vector2f& middle) {
           return footprint.MayHaveSide(middle, sides.max_sigma());
         },
-        [&](const TablePoint& point) {
+        [&](const SurfacePoint& point) {
           if (point.p_T.z() < top && footprint.IsOnSide(point)) heights.push_back(point.p_T.z());
         });
     if (heights.size() < kMinPoints) continue;
