@@ -10,6 +10,7 @@ float InlierLimit(const SideCell& cell, float inlier_distance_m) {
 
 void CellArrays::Resize(size_t num) {
   num_ = num;
+  num_fields_ = kNumFields;
   // Kernels read and write whole blocks, from any element on.
   stride_ = (num / kCellBlock + 2) * kCellBlock;
   if (values_.size() < kNumFields * stride_) values_.resize(kNumFields * stride_);
@@ -31,10 +32,11 @@ void CellArrays::Set(size_t i, const SideCell& cell, size_t index, float inlier_
   field(kIndex)[i] = static_cast<float>(index);
 }
 
-void CellArrays::CopyMarked(const CellArrays& from, const std::vector<float>& marks) {
+void CellArrays::CopyMarked(const CellArrays& from, const float* marks, size_t num_fields) {
   const size_t num = from.num_;
   if (this != &from) Resize(num);
-  num_ = declutter::CopyMarked(marks.data(), num, kNumFields, from.values_.data(), from.stride_,
+  num_fields_ = num_fields;
+  num_ = declutter::CopyMarked(marks, num, num_fields, from.values_.data(), from.stride_,
                                values_.data(), stride_);
 }
 

@@ -13,18 +13,21 @@ namespace declutter {
 class CellArrays {
  public:
   enum Field {
-    kX,             // [m] mean position in the xy plane of T
-    kY,             // [m]
-    kNormalX,       // unit mean horizontal normal
-    kNormalY,       //
+    kX,          // [m] mean position in the xy plane of T
+    kY,          // [m]
+    kWeight,     // number of points
+    kZ,          // [m] mean height
+    kFitWeight,  // [1/m^2] in least squares: points over variance
+    kKappa,      // [1/m] mean
+    kIndex,      // of the cell in its component; exact below 2^24
+    kAgreement,  // with the model that was last looked at
+    kNumFieldsOfInlier,
+    kCurvature = kNumFieldsOfInlier,  // [1] mean (paper mode)
+    kMinRadius,                       // [m] mean (paper mode)
+    kNumPaperFieldsOfInlier,
+    kNormalX = kNumPaperFieldsOfInlier,  // unit mean horizontal normal
+    kNormalY,                            //
     kInverseLimit,  // [1/m^2] of the squared distance of an inlier from its model
-    kWeight,        // number of points
-    kZ,             // [m] mean height
-    kFitWeight,     // [1/m^2] in least squares: points over variance
-    kKappa,         // [1/m] mean
-    kCurvature,     // [1] mean
-    kMinRadius,     // [m] mean
-    kIndex,         // of the cell in its component; exact below 2^24
     kNumFields
   };
 
@@ -34,10 +37,10 @@ class CellArrays {
   void Set(size_t i, const SideCell& cell, size_t index, float inlier_distance_m);
 
   // The cells of another one for which marks are positive, in the same order. marks is as long as
-  // from, and kCellBlock elements more.
-  void CopyMarked(const CellArrays& from, const std::vector<float>& marks);
+  // from, and kCellBlock elements more. Only the first num_fields are copied.
+  void CopyMarked(const CellArrays& from, const float* marks, size_t num_fields);
   // Drops the cells for which marks are not positive.
-  void KeepMarked(const std::vector<float>& marks) { CopyMarked(*this, marks); }
+  void KeepMarked(const std::vector<float>& marks) { CopyMarked(*this, marks.data(), num_fields_); }
 
   size_t size() const { return num_; }
   bool empty() const { return num_ == 0; }
@@ -51,7 +54,8 @@ class CellArrays {
 
  private:
   size_t num_ = 0;
-  size_t stride_ = 0;  // from one array to the next, whole blocks
+  size_t num_fields_ = kNumFields;  // that hold something
+  size_t stride_ = 0;               // from one array to the next, whole blocks
   std::vector<float> values_;
 };
 

@@ -159,10 +159,6 @@ float LineSupport(const CellView& cells, const LineShape& line, float min_cos) {
 }
 
 float CircleSupport(const CellView& cells, const CircleShape& circle, float min_cos) {
-  return SumAgreements(cells, CircleAgreement<true>(circle, min_cos), min_cos);
-}
-
-float CircleSampleSupport(const CellView& cells, const CircleShape& circle, float min_cos) {
   return SumAgreements(cells, CircleAgreement<false>(circle, min_cos), min_cos);
 }
 
@@ -210,6 +206,16 @@ float SumOf(const float* values, size_t num) {
   Sums<1> sum;
   ForEachVector(num, [&](size_t i, const auto& mask, size_t k) HWY_ATTR {
     sum.Add(0, k, hn::IfThenElseZero(mask, hn::LoadU(Floats(), values + i)));
+  });
+  return sum[0];
+}
+
+float SumOfProducts(const float* a, const float* b, size_t num) {
+  const Floats f;
+  Sums<1> sum;
+  ForEachVector(num, [&](size_t i, const auto& mask, size_t k) HWY_ATTR {
+    const auto product = hn::Mul(hn::LoadU(f, a + i), hn::LoadU(f, b + i));
+    sum.Add(0, k, hn::IfThenElseZero(mask, product));
   });
   return sum[0];
 }
@@ -352,10 +358,10 @@ HWY_EXPORT(LineAgreements);
 HWY_EXPORT(CircleAgreements);
 HWY_EXPORT(LineSupport);
 HWY_EXPORT(CircleSupport);
-HWY_EXPORT(CircleSampleSupport);
 HWY_EXPORT(CopyMarked);
 HWY_EXPORT(RangeOf);
 HWY_EXPORT(SumOf);
+HWY_EXPORT(SumOfProducts);
 HWY_EXPORT(WeightBelow);
 HWY_EXPORT(SumPoints);
 HWY_EXPORT(SumCircle);
@@ -383,14 +389,6 @@ float Support(const CellView& cells, const CircleShape& circle, float min_cos) {
   return HWY_DYNAMIC_DISPATCH(CircleSupport)(cells, circle, min_cos);
 }
 
-float SampleSupport(const CellView& cells, const LineShape& line, float min_cos) {
-  return Support(cells, line, min_cos);
-}
-
-float SampleSupport(const CellView& cells, const CircleShape& circle, float min_cos) {
-  return HWY_DYNAMIC_DISPATCH(CircleSampleSupport)(cells, circle, min_cos);
-}
-
 size_t CopyMarked(const float* marks, size_t num, size_t num_fields, const float* from,
                   size_t from_stride, float* to, size_t to_stride) {
   return HWY_DYNAMIC_DISPATCH(CopyMarked)(marks, num, num_fields, from, from_stride, to, to_stride);
@@ -401,6 +399,10 @@ Range RangeOf(const float* values, size_t num) {
 }
 
 float SumOf(const float* values, size_t num) { return HWY_DYNAMIC_DISPATCH(SumOf)(values, num); }
+
+float SumOfProducts(const float* a, const float* b, size_t num) {
+  return HWY_DYNAMIC_DISPATCH(SumOfProducts)(a, b, num);
+}
 
 float WeightBelow(const float* values, const float* weights, size_t num, float limit) {
   return HWY_DYNAMIC_DISPATCH(WeightBelow)(values, weights, num, limit);

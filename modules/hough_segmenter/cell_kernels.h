@@ -40,13 +40,10 @@ struct CircleShape {
 void Agreements(const CellView& cells, const LineShape& line, float min_cos, float* agreements);
 void Agreements(const CellView& cells, const CircleShape& circle, float min_cos, float* agreements);
 
-// The sum of agreements times weights [px].
+// The sum of agreements times weights [px], for circles with the distance to first order, (d^2 -
+// r^2) / 2r.
 float Support(const CellView& cells, const LineShape& line, float min_cos);
 float Support(const CellView& cells, const CircleShape& circle, float min_cos);
-
-// What ranks samples as Support does: for circles the distance is to first order, (d^2 - r^2) / 2r.
-float SampleSupport(const CellView& cells, const LineShape& line, float min_cos);
-float SampleSupport(const CellView& cells, const CircleShape& circle, float min_cos);
 
 // Copies the elements of num_fields arrays for which marks are positive. Arrays of `from` are
 // from_stride elements apart, those of `to` to_stride; both may be the same memory. Returns how
@@ -62,6 +59,7 @@ struct Range {
 Range RangeOf(const float* values, size_t num);
 
 float SumOf(const float* values, size_t num);
+float SumOfProducts(const float* a, const float* b, size_t num);
 
 // The sum of the weights of the values below limit.
 float WeightBelow(const float* values, const float* weights, size_t num, float limit);

@@ -14,8 +14,8 @@ namespace declutter {
 // Memory is used again.
 class PointGrid {
  public:
-  static constexpr float kSide = 0.02f;             // [m]
-  static constexpr float kHalfDiagonal = 0.01415f;  // [m]
+  static constexpr float kSide = 0.01f;             // [m]
+  static constexpr float kHalfDiagonal = 0.00708f;  // [m]
 
   // Takes the points for which condition(point) holds.
   template <typename Condition>

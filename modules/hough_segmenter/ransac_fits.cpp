@@ -9,8 +9,8 @@
 namespace declutter {
 namespace {
 
-constexpr size_t kMaxScoredCells = 400;    // cells that decide between samples
-constexpr size_t kFirstScoredCells = 96;   // cells that decide which samples are scored on all
+constexpr size_t kMaxScoredCells = 256;    // cells that decide between samples
+constexpr size_t kFirstScoredCells = 64;   // cells that decide which samples are scored on all
 constexpr size_t kMinFinalists = 6;        // samples that are
 constexpr float kMinBaseline = 0.008f;     // [m] of the two cells of a sample
 constexpr int kMaxDraws = 4;               // of a partner, before a sample is given up
@@ -144,7 +144,7 @@ bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* 
   const CellView left = OpenCells(left_weights_.data());
   const CellView first = left.Part(begin, num_first);
   for (auto& candidate : *candidates) {
-    candidate.score = SampleSupport(first, ShapeOf(candidate.model), min_cos_);
+    candidate.score = Support(first, ShapeOf(candidate.model), min_cos_);
   }
   if (num_scored > num_first) {
     std::stable_sort(candidates->begin(), candidates->end(), is_better);
@@ -152,7 +152,7 @@ bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* 
         std::min(candidates->size(), std::max(kMinFinalists, candidates->size() / 4)));
     const CellView rest = left.Part(begin + num_first, num_scored - num_first);
     for (auto& candidate : *candidates) {
-      candidate.score += SampleSupport(rest, ShapeOf(candidate.model), min_cos_);
+      candidate.score += Support(rest, ShapeOf(candidate.model), min_cos_);
     }
   }
   // The first of the best ones.
@@ -205,9 +205,11 @@ template <typename Model>
 bool SideFitter::FindInliers(const float* weights, Model* model) {
   const auto min_points = static_cast<float>(config_.min_inliers());
   const CellView cells = OpenCells(weights);
-  marks_.resize(cells.num + kCellBlock);
-  Agreements(cells, ShapeOf(*model), min_cos_, marks_.data());
-  inliers_.CopyMarked(open_, marks_);
+  float* agreements = open_.field(CellArrays::kAgreement);
+  Agreements(cells, ShapeOf(*model), min_cos_, agreements);
+  inliers_.CopyMarked(open_, agreements,
+                      mode_ == FeatureMode::kPaper ? CellArrays::kNumPaperFieldsOfInlier
+                                                   : CellArrays::kNumFieldsOfInlier);
   if (inliers_.NumPoints() < min_points) return false;
   Filter(model);
   return inliers_.NumPoints() >= min_points;
@@ -224,7 +226,8 @@ bool SideFitter::RefitTo(Model model, const float* weights, Fit<Model>* fit) {
   if (!IsPossible(model, 1)) return false;
   fit->model = model;
   fit->num_points = inliers_.NumPoints();
-  fit->support = Support(inliers_.view(), ShapeOf(model), min_cos_);
+  fit->support = SumOfProducts(inliers_.field(CellArrays::kWeight),
+                               inliers_.field(CellArrays::kAgreement), inliers_.size());
   fit->inliers.Clear(cells_->size());
   for (size_t i = 0; i < inliers_.size(); ++i) fit->inliers.Add(inliers_.IndexOf(i));
   return true;
