@@ -1,6 +1,8 @@
 #include "modules/hough_segmenter/hough_segmenter.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
 
 #include "modules/hough_segmenter/lying_cylinders.h"
 #include "modules/hough_segmenter/solid_completion.h"
@@ -59,7 +61,52 @@ HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config, SideDetector 
       side_search_(config),
       section_search_(SectionConfig(config)) {}
 
+SideDetections HoughSegmenter::FindSides(const FeatureCloud& features) {
+  const std::vector<std::vector<SideCell>>& cells =
+      cells_.Gather(points_, features.num_components, static_cast<float>(config_.cell_side_m()),
+                    static_cast<float>(config_.cell_height_m()));
+  size_t num_cells = 0;
+  for (const auto& component : cells) num_cells += component.size();
+  SideDetections sides;
+  int64_t num_tests_left = config_.max_cell_tests();
+  int num_cut_short = 0;
+  for (size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c].empty()) continue;
+    // Its share of what is left, by its cells.
+    const double share = static_cast<double>(cells[c].size()) / static_cast<double>(num_cells);
+    const auto component = static_cast<int>(c);
+    SideFitter& fitter = side_search_.fitter;
+    fitter.Assign(features.mode, cells[c],
+                  ComponentSeed(config_.seed(), features.header.utime, component),
+                  static_cast<int64_t>(share * static_cast<double>(num_tests_left)));
+    detect_(component, &side_search_, &sides);
+    num_cut_short += fitter.is_spent();
+    num_tests_left = std::max(int64_t{0}, num_tests_left - fitter.num_tests());
+    num_cells -= cells[c].size();
+  }
+  if (num_cut_short > 0) {
+    shortfall_ += "voting was cut short in " + std::to_string(num_cut_short) + " of " +
+                  std::to_string(cells.size()) + " components (max_cell_tests " +
+                  std::to_string(config_.max_cell_tests()) + ")";
+  }
+  return sides;
+}
+
+void HoughSegmenter::KeepBest(std::vector<Hypothesis>* hypotheses) {
+  std::stable_sort(
+      hypotheses->begin(), hypotheses->end(),
+      [](const Hypothesis& a, const Hypothesis& b) { return a.num_inliers > b.num_inliers; });
+  DropAlike(hypotheses);
+  const auto max_num = static_cast<size_t>(config_.max_hypotheses());
+  if (hypotheses->size() <= max_num) return;
+  if (!shortfall_.empty()) shortfall_ += "; ";
+  shortfall_ += std::to_string(hypotheses->size() - max_num) +
+                " solids were left out (max_hypotheses " + std::to_string(max_num) + ")";
+  hypotheses->resize(max_num);
+}
+
 HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCloud& features) {
+  shortfall_.clear();
   HypothesisList list;
   list.header = features.header;
   list.mode = features.mode;
@@ -68,15 +115,7 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCl
 
   const Eigen::Isometry3d X_TC = TableFrame(list.planes[0]);
   FindTablePoints(tabletop, features, X_TC, &points_);
-  const std::vector<std::vector<SideCell>>& cells =
-      cells_.Gather(points_, features.num_components, static_cast<float>(config_.cell_side_m()),
-                    static_cast<float>(config_.cell_height_m()));
-  SideDetections sides;
-  for (int c = 0; c < features.num_components; ++c) {
-    side_search_.fitter.Assign(list.mode, cells[static_cast<size_t>(c)],
-                               ComponentSeed(config_.seed(), features.header.utime, c));
-    detect_(c, &side_search_, &sides);
-  }
+  SideDetections sides = FindSides(features);
   Surfaces surfaces{std::move(sides.faces), std::move(sides.arcs),
                     tops_.Find(points_, tabletop, X_TC, kMaxTopStep, kMinTopPoints)};
   sides_.Assign(points_, [](const TablePoint& point) { return point.is_side(); });
@@ -93,10 +132,7 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCl
     propose(
         FindLyingCylinders(config_, points_, slants_, surfaces.tops, &cells_, &section_search_));
   }
-  std::stable_sort(
-      list.hypotheses.begin(), list.hypotheses.end(),
-      [](const Hypothesis& a, const Hypothesis& b) { return a.num_inliers > b.num_inliers; });
-  DropAlike(&list.hypotheses);
+  KeepBest(&list.hypotheses);
   const Eigen::Isometry3d X_CT = X_TC.inverse();
   for (Hypothesis& hypothesis : list.hypotheses) {
     hypothesis.solid.X_CO = X_CT * hypothesis.solid.X_CO;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "modules/geometry/feature_cloud.h"
 #include "modules/geometry/solid.h"
 #include "modules/geometry/tabletop.h"
@@ -21,9 +24,18 @@ class HoughSegmenter {
   // Hypotheses in C, best first. Tabletop and features must be of the same frame.
   HypothesisList Segment(const Tabletop& tabletop, const FeatureCloud& features);
 
+  // What was left out of the last list because the work of a frame is bounded; empty: nothing.
+  const std::string& shortfall() const { return shortfall_; }
+
  private:
+  // The faces and arcs among points_.
+  SideDetections FindSides(const FeatureCloud& features);
+  // Sorts hypotheses in T by their points, without those alike, and keeps max_hypotheses of them.
+  void KeepBest(std::vector<Hypothesis>* hypotheses);
+
   HoughSegmenterConfig config_;
   SideDetector detect_;
+  std::string shortfall_;
   // Memory that is used again.
   std::vector<TablePoint> points_;
   SideCells cells_;

@@ -27,7 +27,10 @@ SideFitter::SideFitter(const HoughSegmenterConfig& config)
       min_cos_(static_cast<float>(config.filter_normals() ? std::cos(config.max_normal_angle_rad())
                                                           : kMinCosUnfiltered)) {}
 
-void SideFitter::Assign(FeatureMode mode, const std::vector<SideCell>& cells, uint64_t seed) {
+void SideFitter::Assign(FeatureMode mode, const std::vector<SideCell>& cells, uint64_t seed,
+                        int64_t max_tests) {
+  max_tests_ = max_tests;
+  num_tests_ = 0;
   mode_ = mode;
   cells_ = &cells;
   random_ = RandomIndex(seed);
@@ -130,7 +133,10 @@ void SideFitter::FindCandidates(std::vector<Candidate<Model>>* candidates) {
 
 template <typename Model>
 bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* fit) {
-  if (num_left_ == 0 || num_points_left_ < static_cast<float>(config_.min_inliers())) return false;
+  if (is_spent() || num_left_ == 0 ||
+      num_points_left_ < static_cast<float>(config_.min_inliers())) {
+    return false;
+  }
   FindCandidates(candidates);
   if (candidates->empty()) return false;
   // Parts of the open cells in which about so many are left.
@@ -143,6 +149,7 @@ bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* 
   const auto is_better = [](const auto& x, const auto& y) { return x.score > y.score; };
   const CellView left = OpenCells(left_weights_.data());
   const CellView first = left.Part(begin, num_first);
+  num_tests_ += static_cast<int64_t>(candidates->size() * num_first);
   for (auto& candidate : *candidates) {
     candidate.score = Support(first, ShapeOf(candidate.model), min_cos_);
   }
@@ -151,6 +158,7 @@ bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* 
     candidates->resize(
         std::min(candidates->size(), std::max(kMinFinalists, candidates->size() / 4)));
     const CellView rest = left.Part(begin + num_first, num_scored - num_first);
+    num_tests_ += static_cast<int64_t>(candidates->size() * rest.num);
     for (auto& candidate : *candidates) {
       candidate.score += Support(rest, ShapeOf(candidate.model), min_cos_);
     }
@@ -206,6 +214,7 @@ bool SideFitter::FindInliers(const float* weights, Model* model) {
   const auto min_points = static_cast<float>(config_.min_inliers());
   const CellView cells = OpenCells(weights);
   float* agreements = open_.field(CellArrays::kAgreement);
+  num_tests_ += static_cast<int64_t>(cells.num);
   Agreements(cells, ShapeOf(*model), min_cos_, agreements);
   inliers_.CopyMarked(open_, agreements,
                       mode_ == FeatureMode::kPaper ? CellArrays::kNumPaperFieldsOfInlier

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,8 +24,10 @@ class SideFitter {
  public:
   explicit SideFitter(const HoughSegmenterConfig& config);
 
-  // Begins a component, of which all cells are open. cells must outlive its fits.
-  void Assign(FeatureMode mode, const std::vector<SideCell>& cells, uint64_t seed);
+  // Begins a component, of which all cells are open. cells must outlive its fits. When max_tests
+  // tests of a cell against a line or circle are spent, FitLine and FitCircle find nothing more.
+  void Assign(FeatureMode mode, const std::vector<SideCell>& cells, uint64_t seed,
+              int64_t max_tests = std::numeric_limits<int64_t>::max());
 
   // Begins an iteration.
   void Restart();
@@ -46,6 +49,8 @@ class SideFitter {
   void Explain(const CellSet& cells);
 
   const std::vector<SideCell>& cells() const { return *cells_; }
+  bool is_spent() const { return num_tests_ >= max_tests_; }
+  int64_t num_tests() const { return num_tests_; }  // since Assign()
 
  private:
   template <typename Model>
@@ -91,6 +96,8 @@ class SideFitter {
   FeatureMode mode_ = FeatureMode::kDefault;
   const std::vector<SideCell>* cells_ = nullptr;
   RandomIndex random_{0};
+  int64_t max_tests_ = 0;
+  int64_t num_tests_ = 0;
   CellArrays open_;                  // in random order: each part of it is a random sample
   std::vector<size_t> place_;        // in open_ of each open cell
   std::vector<float> left_weights_;  // of the open cells, 0 when taken in this iteration

@@ -48,7 +48,9 @@ void DetectSides(int component, SideSearch* search, SideDetections* detections) 
     num_before = num_detections();
     search->line_votes.Clear();
     search->circle_votes.Clear();
-    for (int i = 0; i < search->num_iterations; ++i) FitSides(search, Caster{search});
+    for (int i = 0; i < search->num_iterations && !search->fitter.is_spent(); ++i) {
+      FitSides(search, Caster{search});
+    }
     search->line_votes.Connect();
     search->circle_votes.Connect();
     while (true) {

@@ -76,7 +76,8 @@ void FitSides(SideSearch* search, TakeFit take) {
 using SideDetector = void (*)(int component, SideSearch* search, SideDetections* detections);
 
 // The list of section 4: I iterations of fits on the component, votes, peak, recomputed inliers,
-// removal, until nothing with N points is left.
+// removal, until nothing with N points is left or the tests of the fitter are spent: then peaks are
+// taken from the votes cast by then.
 void DetectSides(int component, SideSearch* search, SideDetections* detections);
 
 }  // namespace declutter
