@@ -10,6 +10,7 @@ namespace declutter {
 namespace {
 
 constexpr float kEdgeTolerance = 0.015f;  // [m] between a face and the edge of the top face
+constexpr int kMinNear = 10;              // [px] of a top face that begins at a face
 constexpr float kBin = 0.004f;            // [m] of the profile of a top face
 
 }  // namespace
@@ -77,14 +78,23 @@ Rectangle Around(const TopPatch& patch, const Eigen::Vector2f& axis) {
 bool IsAttached(const Face& face, const TopPatch& patch) {
   const LineModel& line = face.model;
   if (std::abs(line.z_max - patch.height) > kTopTolerance) return false;
+  Eigen::AlignedBox2f box;  // of the patch, by position along the face and depth behind it
+  for (const Eigen::Vector2f& p : patch.hull) {
+    box.extend(Eigen::Vector2f(line.tangent().dot(p), line.rho - line.n.dot(p)));
+  }
+  if (box.min().x() >= line.s_max || box.max().x() <= line.s_min ||
+      box.min().y() >= 2 * kEdgeTolerance || box.max().y() <= -kEdgeTolerance) {
+    return false;
+  }
   int num_near = 0;
   for (const Eigen::Vector2f& p : patch.points) {
     const float depth = line.rho - line.n.dot(p);
     const float s = line.tangent().dot(p);
     num_near +=
         depth > -kEdgeTolerance && depth < 2 * kEdgeTolerance && s > line.s_min && s < line.s_max;
+    if (num_near == kMinNear) return true;
   }
-  return num_near >= 10;
+  return false;
 }
 
 void SnapToFaces(const std::vector<const Face*>& faces, Rectangle* r) {

@@ -37,16 +37,15 @@ class Footprint {
     const Eigen::Vector2f p_T = point.p_T.head<2>() - centre_;
     if (p_T.cwiseAbs().maxCoeff() > reach_ + tolerance) return false;
     const Eigen::Vector2f p = ToO(p_T);
-    const Eigen::Vector2f n = ToO(point.n_T.head<2>());
-    const float min_cos = kMinCos * n.norm();
-    if (is_round_) {
-      const float distance = p.norm();
-      return std::abs(distance - half_.x()) < tolerance && n.dot(p) > min_cos * distance;
-    }
+    const auto looks_along = [&](const Eigen::Vector2f& outward) {
+      const Eigen::Vector2f n = ToO(point.n_T.head<2>());
+      return n.dot(outward) > kMinCos * n.norm() * outward.norm();
+    };
+    if (is_round_) return std::abs(p.norm() - half_.x()) < tolerance && looks_along(p);
     for (int axis = 0; axis < 2; ++axis) {
       if (std::abs(std::abs(p[axis]) - half_[axis]) < tolerance &&
           std::abs(p[1 - axis]) < half_[1 - axis] &&
-          std::copysign(1.0f, p[axis]) * n[axis] > min_cos) {
+          looks_along(std::copysign(1.0f, p[axis]) * Eigen::Vector2f::Unit(axis))) {
         return true;
       }
     }

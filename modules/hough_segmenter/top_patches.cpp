@@ -16,21 +16,24 @@ namespace {
 constexpr int kRimPixels = 4;          // [px] of the image that normals are blurred over
 constexpr float kMaxRimStep = 0.003f;  // [m] in height between a rim and the face inside
 
-// The points that are not inside the octagon of those farthest in eight directions: inner ones are
-// no corners of the hull, and most are.
+// The points, at least one, that are not inside the octagon of those farthest in eight directions:
+// inner ones are no corners of the hull, and most are.
 std::vector<Eigen::Vector2d> OuterPoints(const std::vector<Eigen::Vector2f>& points) {
-  constexpr int kDirections[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
-                                     {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+  // Counter-clockwise; those of the second half are the opposites of the first.
+  const std::array<Eigen::Vector2f, 4> directions = {Eigen::Vector2f(1, 0), Eigen::Vector2f(1, 1),
+                                                     Eigen::Vector2f(0, 1), Eigen::Vector2f(-1, 1)};
   std::array<Eigen::Vector2f, 8> corners;
-  for (size_t k = 0; k < corners.size(); ++k) {
-    const Eigen::Vector2f direction(static_cast<float>(kDirections[k][0]),
-                                    static_cast<float>(kDirections[k][1]));
-    float farthest = std::numeric_limits<float>::lowest();
-    for (const Eigen::Vector2f& p : points) {
-      const float along = direction.dot(p);
-      if (along <= farthest) continue;
-      farthest = along;
-      corners[k] = p;
+  corners.fill(points[0]);
+  std::array<float, 8> farthest;
+  farthest.fill(std::numeric_limits<float>::lowest());
+  for (const Eigen::Vector2f& p : points) {
+    for (size_t k = 0; k < directions.size(); ++k) {
+      const float along = directions[k].dot(p);
+      for (const auto& [corner, distance] : {std::pair(k, along), std::pair(k + 4, -along)}) {
+        if (distance <= farthest[corner]) continue;
+        farthest[corner] = distance;
+        corners[corner] = p;
+      }
     }
   }
   std::array<Eigen::Vector3f, 8> edges;  // inward normal and offset
