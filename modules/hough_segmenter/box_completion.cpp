@@ -20,10 +20,11 @@ bool IsGraspable(const Rectangle& r, float max_extent) {
 std::vector<Hypothesis> CompleteBoxes(const HoughSegmenterConfig& config,
                                       const Surfaces& surfaces) {
   const auto max_extent = static_cast<float>(config.max_box_extent_m());
-  const std::vector<Face> faces = WithJoinedFaces(surfaces.faces, max_extent);
+  const auto max_joined = static_cast<size_t>(config.max_hypotheses());
+  const std::vector<Face> faces = WithJoinedFaces(surfaces.faces, max_extent, max_joined);
   std::vector<Rectangle> rectangles;
   std::vector<char> has_depth(faces.size(), 0);
-  for (const TopPatch& patch : WithJoinedPatches(surfaces.tops)) {
+  for (const TopPatch& patch : WithJoinedPatches(surfaces.tops, max_extent, max_joined)) {
     std::vector<const Face*> attached;
     for (size_t i = 0; i < faces.size(); ++i) {
       if (!IsAttached(faces[i], patch)) continue;

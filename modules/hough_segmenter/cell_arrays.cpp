@@ -1,93 +1,48 @@
 #include "modules/hough_segmenter/cell_arrays.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace declutter {
-namespace {
 
-constexpr size_t kLanes = 8;  // partial sums, added in the same order on every machine
-constexpr double kMinCosUnfiltered = -1e6;  // so far below every cosine that all agree alike
-
-}  // namespace
-
-CellArrays::CellArrays(const HoughSegmenterConfig& config)
-    : inlier_distance_m_(static_cast<float>(config.inlier_distance_m())),
-      min_cos_(static_cast<float>(config.filter_normals() ? std::cos(config.max_normal_angle_rad())
-                                                          : kMinCosUnfiltered)) {}
+float InlierLimit(const SideCell& cell, float inlier_distance_m) {
+  return std::max(inlier_distance_m, 2.5f * cell.sigma);
+}
 
 void CellArrays::Resize(size_t num) {
-  for (auto* array : {&px_, &py_, &nx_, &ny_, &weight_, &inverse_limit_}) array->resize(num);
+  num_ = num;
+  num_fields_ = kNumFields;
+  // Kernels read and write whole blocks, from any element on.
+  stride_ = (num / kCellBlock + 2) * kCellBlock;
+  if (values_.size() < kNumFields * stride_) values_.resize(kNumFields * stride_);
 }
 
-void CellArrays::Assign(const std::vector<SideCell>& cells) {
-  Resize(cells.size());
-  for (size_t i = 0; i < cells.size(); ++i) {
-    const SideCell& cell = cells[i];
-    const float limit = std::max(inlier_distance_m_, 2.5f * cell.sigma);
-    px_[i] = cell.p.x();
-    py_[i] = cell.p.y();
-    nx_[i] = cell.n.x();
-    ny_[i] = cell.n.y();
-    weight_[i] = cell.weight;
-    inverse_limit_[i] = 1 / (limit * limit);
-  }
+void CellArrays::Set(size_t i, const SideCell& cell, size_t index, float inlier_distance_m) {
+  const float limit = InlierLimit(cell, inlier_distance_m);
+  field(kX)[i] = cell.p.x();
+  field(kY)[i] = cell.p.y();
+  field(kNormalX)[i] = cell.n.x();
+  field(kNormalY)[i] = cell.n.y();
+  field(kInverseLimit)[i] = 1 / (limit * limit);
+  field(kWeight)[i] = cell.weight;
+  field(kZ)[i] = cell.z;
+  field(kFitWeight)[i] = cell.weight / (cell.sigma * cell.sigma);
+  field(kKappa)[i] = cell.kappa;
+  field(kCurvature)[i] = cell.curvature;
+  field(kMinRadius)[i] = cell.r_min;
+  field(kIndex)[i] = static_cast<float>(index);
 }
 
-void CellArrays::Gather(const CellArrays& from, const std::vector<int>& indices) {
-  Resize(indices.size());
-  for (size_t k = 0; k < indices.size(); ++k) {
-    const auto i = static_cast<size_t>(indices[k]);
-    px_[k] = from.px_[i];
-    py_[k] = from.py_[i];
-    nx_[k] = from.nx_[i];
-    ny_[k] = from.ny_[i];
-    weight_[k] = from.weight_[i];
-    inverse_limit_[k] = from.inverse_limit_[i];
-  }
+void CellArrays::CopyMarked(const CellArrays& from, const float* marks, size_t num_fields) {
+  const size_t num = from.num_;
+  if (this != &from) Resize(num);
+  num_fields_ = num_fields;
+  num_ = declutter::CopyMarked(marks, num, num_fields, from.values_.data(), from.stride_,
+                               values_.data(), stride_);
 }
 
-inline float CellArrays::Agreement(float squared_distance, float cos_angle, size_t i) const {
-  const float nearness = std::max(0.0f, 1 - squared_distance * inverse_limit_[i]);
-  return nearness * std::max(0.0f, cos_angle - min_cos_) / (1 - min_cos_);
-}
-
-void CellArrays::Agreements(const LineModel& line, std::vector<float>* agreements) const {
-  agreements->resize(size());
-  float* out = agreements->data();
-  const float nx = line.n.x(), ny = line.n.y(), rho = line.rho;
-  for (size_t i = 0; i < px_.size(); ++i) {
-    const float distance = nx * px_[i] + ny * py_[i] - rho;
-    out[i] = Agreement(distance * distance, nx * nx_[i] + ny * ny_[i], i);
-  }
-}
-
-void CellArrays::Agreements(const CircleModel& circle, std::vector<float>* agreements) const {
-  agreements->resize(size());
-  float* out = agreements->data();
-  const float cx = circle.c.x(), cy = circle.c.y(), r = circle.r;
-  for (size_t i = 0; i < px_.size(); ++i) {
-    const float dx = px_[i] - cx;
-    const float dy = py_[i] - cy;
-    const float radial = std::sqrt(dx * dx + dy * dy + 1e-12f);
-    const float distance = radial - r;
-    out[i] = Agreement(distance * distance, (dx * nx_[i] + dy * ny_[i]) / radial, i);
-  }
-}
-
-float CellArrays::Support(const std::vector<float>& agreements) const {
-  float sums[kLanes] = {};
-  const size_t num = size();
-  const size_t num_whole = num / kLanes * kLanes;
-  for (size_t i = 0; i < num_whole; i += kLanes) {
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-      sums[lane] += weight_[i + lane] * agreements[i + lane];
-    }
-  }
-  for (size_t i = num_whole; i < num; ++i) sums[0] += weight_[i] * agreements[i];
-  float sum = 0;
-  for (float partial : sums) sum += partial;
-  return sum;
+CellView CellArrays::view() const {
+  return {field(kX),      field(kY), field(kNormalX), field(kNormalY), field(kInverseLimit),
+          field(kWeight), num_};
 }
 
 }  // namespace declutter

@@ -40,22 +40,6 @@ Points EveryNth(const Points& points, size_t max_num) {
   return some;
 }
 
-// Edge points on the circle, and inside, where a disc has no edge.
-struct EdgeCount {
-  int num_on = 0;
-  int num_inside = 0;
-};
-
-EdgeCount Count(const Points& edge, const CircleModel& circle, float tolerance) {
-  EdgeCount count;
-  for (const Eigen::Vector2f& p : edge) {
-    const float distance = (p - circle.c).norm() - circle.r;
-    count.num_on += std::abs(distance) < tolerance;
-    count.num_inside += distance < -2 * tolerance;
-  }
-  return count;
-}
-
 // Least squares on the edge points near the circle.
 void FitToEdge(const Points& edge, float tolerance, CircleModel* circle) {
   for (int iteration = 0; iteration < 4; ++iteration) {
@@ -95,21 +79,43 @@ bool Contains(const TopPatch& patch, const CircleModel& circle, float tolerance)
   return static_cast<float>(num_outside) < kMaxOutside * static_cast<float>(patch.points.size());
 }
 
-// The circle through three of the corners that scores best; nothing when none scores at all.
-template <typename Score>
-std::optional<CircleModel> BestCircle(const Points& corners, float min_radius_m, float max_radius_m,
-                                      Score score) {
-  std::optional<CircleModel> best;
-  int best_score = 0;
+struct ScoredCircle {
+  CircleModel circle;
+  int score = 0;  // edge points
+
+  // The first of the best ones.
+  void Replace(const CircleModel& other, int other_score) {
+    if (other_score > score) *this = {other, other_score};
+  }
+};
+
+// The best circles through three of the corners. On an edge that is all of a disc most points are
+// on the circle; on one that has other parts too none are far inside. Scores 0: none.
+struct BestCircles {
+  ScoredCircle whole;
+  ScoredCircle part;
+};
+
+BestCircles FindBest(const Points& edge, float min_radius_m, float max_radius_m, float tolerance,
+                     size_t* num_scored) {
+  const Points corners = EveryNth(edge, kMaxCorners);
+  const Points scored = EveryNth(edge, kMaxScored);
+  *num_scored = scored.size();
+  std::vector<float> x(scored.size() + kCellBlock), y(x.size());
+  for (size_t i = 0; i < scored.size(); ++i) {
+    x[i] = scored[i].x();
+    y[i] = scored[i].y();
+  }
+  BestCircles best;
   for (size_t i = 0; i < corners.size(); ++i) {
     for (size_t j = i + 1; j < corners.size(); ++j) {
       for (size_t k = j + 1; k < corners.size(); ++k) {
         const auto circle = CircleThrough(corners[i], corners[j], corners[k]);
         if (!circle || circle->r < min_radius_m || circle->r > max_radius_m) continue;
-        const int circle_score = score(*circle);
-        if (circle_score <= best_score) continue;
-        best_score = circle_score;
-        best = circle;
+        const RingCount count =
+            CountOnRing(x.data(), y.data(), scored.size(), ShapeOf(*circle), tolerance);
+        best.whole.Replace(*circle, count.num_on);
+        best.part.Replace(*circle, count.num_on - 2 * count.num_inside);
       }
     }
   }
@@ -120,22 +126,23 @@ std::optional<CircleModel> BestCircle(const Points& corners, float min_radius_m,
 
 std::optional<CircleModel> FitDisc(const TopPatch& patch, float min_radius_m, float max_radius_m) {
   const float tolerance = std::max(kMaxEdgeError, 2 * patch.sigma);
-  const Points corners = EveryNth(patch.free_edge, kMaxCorners);
-  const Points scored = EveryNth(patch.free_edge, kMaxScored);
-  const auto share = [&](int num) {
-    return static_cast<float>(num) / static_cast<float>(scored.size());
+  size_t num_scored = 0;
+  const BestCircles best =
+      FindBest(patch.free_edge, min_radius_m, max_radius_m, tolerance, &num_scored);
+  const auto has_share = [&](const ScoredCircle& scored, float min_share) {
+    return scored.score > 0 &&
+           static_cast<float>(scored.score) >= min_share * static_cast<float>(num_scored);
   };
   const auto arc = [&](const CircleModel& circle) {
     return std::min(ArcOf(patch.free_edge, circle, tolerance), static_cast<float>(M_PI));
   };
   const auto refit = [&](std::optional<CircleModel>* circle) {
-    if (*circle) FitToEdge(patch.free_edge, 2 * tolerance, &**circle);
-    if (*circle && ((*circle)->r < min_radius_m || (*circle)->r > max_radius_m)) circle->reset();
+    FitToEdge(patch.free_edge, 2 * tolerance, &**circle);
+    if ((*circle)->r < min_radius_m || (*circle)->r > max_radius_m) circle->reset();
   };
 
-  const auto num_on = [&](const CircleModel& c) { return Count(scored, c, tolerance).num_on; };
-  std::optional<CircleModel> whole = BestCircle(corners, min_radius_m, max_radius_m, num_on);
-  if (whole && share(num_on(*whole)) >= kMinShare) {
+  if (has_share(best.whole, kMinShare)) {
+    std::optional<CircleModel> whole = best.whole.circle;
     refit(&whole);
     if (whole && whole->r * (1 - std::cos(0.5f * arc(*whole))) >= kMinSagitta &&
         Contains(patch, *whole, tolerance)) {
@@ -143,12 +150,8 @@ std::optional<CircleModel> FitDisc(const TopPatch& patch, float min_radius_m, fl
     }
   }
   // Faces of one height that touch are one patch: a disc may be a part of it.
-  const auto balance = [&](const CircleModel& c) {
-    const EdgeCount count = Count(scored, c, tolerance);
-    return count.num_on - 2 * count.num_inside;
-  };
-  std::optional<CircleModel> part = BestCircle(corners, min_radius_m, max_radius_m, balance);
-  if (!part || share(balance(*part)) < kMinShareOfPart) return std::nullopt;
+  if (!has_share(best.part, kMinShareOfPart)) return std::nullopt;
+  std::optional<CircleModel> part = best.part.circle;
   refit(&part);
   if (!part || arc(*part) < kMinArcOfPart) return std::nullopt;
   return part;

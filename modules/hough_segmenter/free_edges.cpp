@@ -55,24 +55,26 @@ class EdgeTracer {
 }  // namespace
 
 void AddFreeEdges(const Tabletop& tabletop, const Eigen::Isometry3d& X_TC,
-                  const std::vector<int32_t>& labels, std::vector<TopPatch>* patches) {
+                  const std::vector<int32_t>& labels, const std::vector<size_t>& pixels,
+                  std::vector<TopPatch>* patches) {
   constexpr int kSteps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   const EdgeTracer tracer(tabletop, X_TC, labels);
   const int thinning = tabletop.thinning;
   const int columns = (tabletop.objects.camera.width + thinning - 1) / thinning;
   const int rows = static_cast<int>(labels.size()) / columns;
-  for (int row = 1; row + 1 < rows; ++row) {
-    for (int column = 1; column + 1 < columns; ++column) {
-      const int32_t label = labels[static_cast<size_t>(row * columns + column)];
-      if (label < 0) continue;
-      TopPatch& patch = (*patches)[static_cast<size_t>(label)];
-      for (const auto& [du, dv] : kSteps) {
-        if (labels[static_cast<size_t>((row + dv) * columns + column + du)] == label) continue;
-        const int u = column * thinning;
-        const int v = row * thinning;
-        if (!tracer.IsFree(u, v, du, dv, patch.height)) continue;
-        patch.free_edge.push_back(tracer.EdgePoint(u, v, du, dv, patch.height));
-      }
+  for (const size_t pixel : pixels) {
+    const int32_t label = labels[pixel];
+    if (label < 0) continue;
+    const int row = static_cast<int>(pixel) / columns;
+    const int column = static_cast<int>(pixel) % columns;
+    if (row == 0 || column == 0 || row + 1 == rows || column + 1 == columns) continue;
+    TopPatch& patch = (*patches)[static_cast<size_t>(label)];
+    for (const auto& [du, dv] : kSteps) {
+      if (labels[static_cast<size_t>((row + dv) * columns + column + du)] == label) continue;
+      const int u = column * thinning;
+      const int v = row * thinning;
+      if (!tracer.IsFree(u, v, du, dv, patch.height)) continue;
+      patch.free_edge.push_back(tracer.EdgePoint(u, v, du, dv, patch.height));
     }
   }
 }

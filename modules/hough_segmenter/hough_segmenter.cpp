@@ -1,6 +1,8 @@
 #include "modules/hough_segmenter/hough_segmenter.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
 
 #include "modules/hough_segmenter/lying_cylinders.h"
 #include "modules/hough_segmenter/solid_completion.h"
@@ -58,20 +60,60 @@ Tabletop AtFeatures(Tabletop tabletop, const FeatureCloud& features) {
   return tabletop;
 }
 
-// Lets each point count as the pixels it stands for.
-void WeighBy(int num_pixels, std::vector<std::vector<SideCell>>* cells) {
-  for (std::vector<SideCell>& component : *cells) {
-    for (SideCell& cell : component) cell.weight *= static_cast<float>(num_pixels);
-  }
-}
-
 }  // namespace
 
 HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config, SideDetector detect)
-    : config_(config), detect_(detect) {}
+    : config_(config),
+      detect_(detect),
+      side_search_(config),
+      section_search_(SectionConfig(config)) {}
 
-HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
-                                       const FeatureCloud& features) const {
+SideDetections HoughSegmenter::FindSides(const FeatureCloud& features, int num_pixels) {
+  const std::vector<std::vector<SideCell>>& cells =
+      cells_.Gather(points_, features.num_components, static_cast<float>(config_.cell_side_m()),
+                    static_cast<float>(config_.cell_height_m()), num_pixels);
+  size_t num_cells = 0;
+  for (const auto& component : cells) num_cells += component.size();
+  SideDetections sides;
+  int64_t num_tests_left = config_.max_cell_tests();
+  int num_cut_short = 0;
+  for (size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c].empty()) continue;
+    // Its share of what is left, by its cells.
+    const double share = static_cast<double>(cells[c].size()) / static_cast<double>(num_cells);
+    const auto component = static_cast<int>(c);
+    SideFitter& fitter = side_search_.fitter;
+    fitter.Assign(features.mode, cells[c],
+                  ComponentSeed(config_.seed(), features.header.utime, component),
+                  static_cast<int64_t>(share * static_cast<double>(num_tests_left)));
+    detect_(component, &side_search_, &sides);
+    num_cut_short += fitter.is_spent();
+    num_tests_left = std::max(int64_t{0}, num_tests_left - fitter.num_tests());
+    num_cells -= cells[c].size();
+  }
+  if (num_cut_short > 0) {
+    shortfall_ += "voting was cut short in " + std::to_string(num_cut_short) + " of " +
+                  std::to_string(cells.size()) + " components (max_cell_tests " +
+                  std::to_string(config_.max_cell_tests()) + ")";
+  }
+  return sides;
+}
+
+void HoughSegmenter::KeepBest(std::vector<Hypothesis>* hypotheses) {
+  std::stable_sort(
+      hypotheses->begin(), hypotheses->end(),
+      [](const Hypothesis& a, const Hypothesis& b) { return a.num_inliers > b.num_inliers; });
+  DropAlike(hypotheses);
+  const auto max_num = static_cast<size_t>(config_.max_hypotheses());
+  if (hypotheses->size() <= max_num) return;
+  if (!shortfall_.empty()) shortfall_ += "; ";
+  shortfall_ += std::to_string(hypotheses->size() - max_num) +
+                " solids were left out (max_hypotheses " + std::to_string(max_num) + ")";
+  hypotheses->resize(max_num);
+}
+
+HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCloud& features) {
+  shortfall_.clear();
   if (features.thinning > tabletop.thinning) {
     return Segment(AtFeatures(tabletop, features), features);
   }
@@ -82,35 +124,26 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop,
   if (list.planes.empty() || features.points.empty()) return list;
 
   const Eigen::Isometry3d X_TC = TableFrame(list.planes[0]);
-  const std::vector<TablePoint> points = TablePoints(tabletop, features, X_TC);
-  std::vector<std::vector<SideCell>> cells =
-      SideCells(points, features.num_components, static_cast<float>(config_.cell_side_m()),
-                static_cast<float>(config_.cell_height_m()));
-  const int num_pixels = tabletop.thinning * tabletop.thinning;
-  if (num_pixels > 1) WeighBy(num_pixels, &cells);
-  SideDetections sides;
-  for (int c = 0; c < features.num_components; ++c) {
-    detect_(config_, list.mode, cells[static_cast<size_t>(c)], c,
-            ComponentSeed(config_.seed(), features.header.utime, c), &sides);
-  }
-  Surfaces surfaces{
-      std::move(sides.faces), std::move(sides.arcs),
-      FindTopPatches(points, tabletop, X_TC, kMaxTopStep, kMinTopPixels / num_pixels)};
-  MeasureExtents(points, &surfaces);
+  FindTablePoints(tabletop, features, X_TC, &points_);
+  const int num_pixels = tabletop.thinning * tabletop.thinning;  // that a point stands for
+  SideDetections sides = FindSides(features, num_pixels);
+  Surfaces surfaces{std::move(sides.faces), std::move(sides.arcs),
+                    tops_.Find(points_, tabletop, X_TC, kMaxTopStep, kMinTopPixels / num_pixels)};
+  sides_.Assign(points_, [](const TablePoint& point) { return point.is_side(); });
+  MeasureExtents(sides_, &surfaces);
 
   const auto propose = [&list](const std::vector<Hypothesis>& hypotheses) {
     list.hypotheses.insert(list.hypotheses.end(), hypotheses.begin(), hypotheses.end());
   };
   propose(CompleteBoxes(config_, surfaces));
   propose(CompleteCylinders(config_, surfaces));
-  AddSidesBelowTops(points, &list.hypotheses);
+  AddSidesBelowTops(sides_, &list.hypotheses);
   if (list.mode == FeatureMode::kDefault) {
-    propose(FindLyingCylinders(config_, points, surfaces.tops, config_.seed()));
+    slants_.Assign(points_, [](const TablePoint& point) { return point.is_slanted(); });
+    propose(
+        FindLyingCylinders(config_, points_, slants_, surfaces.tops, &cells_, &section_search_));
   }
-  std::stable_sort(
-      list.hypotheses.begin(), list.hypotheses.end(),
-      [](const Hypothesis& a, const Hypothesis& b) { return a.num_inliers > b.num_inliers; });
-  DropAlike(&list.hypotheses);
+  KeepBest(&list.hypotheses);
   const Eigen::Isometry3d X_CT = X_TC.inverse();
   for (Hypothesis& hypothesis : list.hypotheses) {
     hypothesis.solid.X_CO = X_CT * hypothesis.solid.X_CO;

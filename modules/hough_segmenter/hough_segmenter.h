@@ -1,10 +1,15 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "modules/geometry/feature_cloud.h"
 #include "modules/geometry/solid.h"
 #include "modules/geometry/tabletop.h"
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
+#include "modules/hough_segmenter/point_grid.h"
 #include "modules/hough_segmenter/side_voting.h"
+#include "modules/hough_segmenter/top_patches.h"
 
 namespace declutter {
 
@@ -17,11 +22,28 @@ class HoughSegmenter {
   explicit HoughSegmenter(const HoughSegmenterConfig& config, SideDetector detect = DetectSides);
 
   // Hypotheses in C, best first. Tabletop and features must be of the same frame.
-  HypothesisList Segment(const Tabletop& tabletop, const FeatureCloud& features) const;
+  HypothesisList Segment(const Tabletop& tabletop, const FeatureCloud& features);
+
+  // What was left out of the last list because the work of a frame is bounded; empty: nothing.
+  const std::string& shortfall() const { return shortfall_; }
 
  private:
+  // The faces and arcs among points_, each of which stands for num_pixels.
+  SideDetections FindSides(const FeatureCloud& features, int num_pixels);
+  // Sorts hypotheses in T by their points, without those alike, and keeps max_hypotheses of them.
+  void KeepBest(std::vector<Hypothesis>* hypotheses);
+
   HoughSegmenterConfig config_;
   SideDetector detect_;
+  std::string shortfall_;
+  // Memory that is used again.
+  std::vector<TablePoint> points_;
+  SideCells cells_;
+  SideSearch side_search_;
+  SideSearch section_search_;
+  TopPatchFinder tops_;
+  PointGrid sides_;
+  PointGrid slants_;
 };
 
 }  // namespace declutter

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "modules/feature_estimator/feature_estimator.h"
 #include "modules/plane_filter/plane_filter.h"
@@ -117,6 +118,78 @@ TEST(HoughSegmenter, ProposesNothingOnAnEmptyTableOrInAnEmptyFrame) {
   const HypothesisList list =
       HoughSegmenter(HoughSegmenterConfig()).Segment(Tabletop(), FeatureCloud());
   EXPECT_THAT(list.hypotheses, testing::IsEmpty());
+}
+
+// Upright squares that face the camera, num_columns x num_rows of them side by side and all in all
+// as large as the image, each a component; every other one is 5 cm nearer.
+struct Tiles {
+  Tabletop tabletop;
+  FeatureCloud features;
+
+  Tiles(int width, int num_columns, int num_rows) {
+    const int height = width * 3 / 4;
+    tabletop.planes = {{Plane{Eigen::Vector3d(0, -1, 0), 0.6}, {}}};
+    tabletop.objects.camera = {
+        width, height, 0.8 * width, 0.8 * width, 0.5 * width - 0.5, 0.5 * height - 0.5};
+    features.width = width;
+    features.height = height;
+    features.num_components = num_columns * num_rows;
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) {
+        const int column = u * num_columns / width, row = v * num_rows / height;
+        tabletop.objects.counts.push_back((column + row) % 2 == 0 ? 1000 : 950);
+        FeaturePoint point;
+        point.pixel = v * width + u;
+        point.normal = {0, 0, -1};
+        point.component = row * num_columns + column;
+        features.points.push_back(point);
+      }
+    }
+  }
+};
+
+TEST(HoughSegmenter, FindsEachOfTwoHundredComponents) {
+  const Tiles tiles(320, 20, 10);
+  HoughSegmenter segmenter{HoughSegmenterConfig()};
+  const HypothesisList list = segmenter.Segment(tiles.tabletop, tiles.features);
+  std::set<int> found;
+  for (const Hypothesis& hypothesis : list.hypotheses) found.insert(hypothesis.component);
+  EXPECT_THAT(found, testing::SizeIs(200));
+  EXPECT_EQ(segmenter.shortfall(), "");
+}
+
+TEST(HoughSegmenter, ProposesTheBestWhereHypothesesAreFew) {
+  const Tiles tiles(320, 4, 3);
+  HoughSegmenterConfig config;
+  const HypothesisList all = HoughSegmenter(config).Segment(tiles.tabletop, tiles.features);
+  config.set_max_hypotheses(5);
+  HoughSegmenter segmenter(config);
+  const HypothesisList best = segmenter.Segment(tiles.tabletop, tiles.features);
+  ASSERT_THAT(all.hypotheses, testing::SizeIs(testing::Gt(5)));
+  ASSERT_THAT(best.hypotheses, testing::SizeIs(5));
+  for (size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(best.hypotheses[i].num_inliers, all.hypotheses[i].num_inliers);
+  }
+  EXPECT_THAT(segmenter.shortfall(), testing::HasSubstr("left out (max_hypotheses 5)"));
+  EXPECT_THAT(segmenter.Segment(Tabletop(), FeatureCloud()).hypotheses, testing::IsEmpty());
+  EXPECT_EQ(segmenter.shortfall(), "");
+}
+
+TEST(HoughSegmenter, SharesTheTestsOfAFrameAmongItsComponents) {
+  const Tiles tiles(320, 4, 3);
+  HoughSegmenterConfig config;
+  config.set_max_cell_tests(200000);
+  HoughSegmenter segmenter(config);
+  const HypothesisList list = segmenter.Segment(tiles.tabletop, tiles.features);
+  std::set<int> found;
+  for (const Hypothesis& hypothesis : list.hypotheses) {
+    EXPECT_GT(hypothesis.num_votes, 0);
+    EXPECT_LT(hypothesis.num_votes, config.num_iterations());
+    found.insert(hypothesis.component);
+  }
+  EXPECT_THAT(found, testing::SizeIs(12));
+  EXPECT_EQ(segmenter.shortfall(),
+            "voting was cut short in 12 of 12 components (max_cell_tests 200000)");
 }
 
 }  // namespace

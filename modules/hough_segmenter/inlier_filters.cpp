@@ -3,151 +3,137 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace declutter {
 namespace {
 
-using Span = std::pair<float, float>;
-
-// One value for each inlier.
-template <typename Coordinate>
-std::vector<float> Values(const std::vector<SideCell>& cells, const std::vector<int>& inliers,
-                          Coordinate coordinate) {
-  std::vector<float> values;
-  values.reserve(inliers.size());
-  for (int i : inliers) values.push_back(coordinate(cells[static_cast<size_t>(i)]));
-  return values;
-}
-
-// Clusters of the inliers along one coordinate: where nothing lies for max_gap (to an eighth of
-// it), a new one begins. Returns the clusters' spans, heaviest first.
-std::vector<Span> Clusters(const std::vector<SideCell>& cells, const std::vector<int>& inliers,
-                           const std::vector<float>& values, float max_gap) {
-  constexpr int kBinsPerGap = 8;
-  if (values.empty()) return {};
-  struct Bin {
-    float weight = 0;
-    Span span = {std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
-  };
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  const float bins_per_unit = kBinsPerGap / max_gap;
-  std::vector<Bin> bins(static_cast<size_t>((*high - *low) * bins_per_unit) + 1);
-  for (size_t k = 0; k < values.size(); ++k) {
-    Bin& bin = bins[static_cast<size_t>((values[k] - *low) * bins_per_unit)];
-    bin.weight += cells[static_cast<size_t>(inliers[k])].weight;
-    bin.span = {std::min(bin.span.first, values[k]), std::max(bin.span.second, values[k])};
-  }
-  std::vector<Bin> clusters;
-  int num_empty = kBinsPerGap;
-  for (const Bin& bin : bins) {
-    if (bin.weight == 0) {
-      ++num_empty;
-      continue;
-    }
-    if (num_empty >= kBinsPerGap) clusters.push_back({0, bin.span});
-    num_empty = 0;
-    clusters.back().weight += bin.weight;
-    clusters.back().span.second = bin.span.second;
-  }
-  std::stable_sort(clusters.begin(), clusters.end(),
-                   [](const Bin& x, const Bin& y) { return x.weight > y.weight; });
-  std::vector<Span> spans;
-  for (const Bin& cluster : clusters) spans.push_back(cluster.span);
-  return spans;
-}
-
-template <typename Condition>
-void KeepIf(const std::vector<SideCell>& cells, std::vector<int>* inliers, Condition condition) {
-  inliers->erase(std::remove_if(inliers->begin(), inliers->end(),
-                                [&](int i) { return !condition(cells[static_cast<size_t>(i)]); }),
-                 inliers->end());
-}
-
-// Keeps the inliers whose values lie in one of the spans.
-void KeepInside(const std::vector<float>& values, const std::vector<Span>& spans,
-                std::vector<int>* inliers) {
-  size_t num = 0;
-  for (size_t k = 0; k < values.size(); ++k) {
-    const auto is_inside = [x = values[k]](const Span& s) { return x >= s.first && x <= s.second; };
-    if (std::any_of(spans.begin(), spans.end(), is_inside)) (*inliers)[num++] = (*inliers)[k];
-  }
-  inliers->resize(num);
-}
+constexpr size_t kBinsPerGap = 8;
+using Field = CellArrays::Field;
 
 }  // namespace
 
-void KeepOneRun(const std::vector<SideCell>& cells, float max_gap_m, FeatureMode mode,
-                LineFit* fit) {
-  const Eigen::Vector2f t = fit->model.tangent();
-  const std::vector<float> along =
-      Values(cells, fit->inliers, [&t](const SideCell& cell) { return t.dot(cell.p); });
-  std::vector<Span> runs = Clusters(cells, fit->inliers, along, max_gap_m);
-  if (runs.size() <= 1) return;
+template <typename Condition>
+void InlierFilters::KeepIf(Condition condition, CellArrays* inliers) {
+  marks_.resize(inliers->size() + kCellBlock);
+  for (size_t i = 0; i < inliers->size(); ++i) marks_[i] = condition(i) ? 1.0f : 0.0f;
+  inliers->KeepMarked(marks_);
+}
+
+bool InlierFilters::HasAtMost(size_t max_num, float max_gap, const CellArrays& inliers) {
+  clusters_.clear();
+  if (inliers.empty()) return true;
+  const Range range = RangeOf(values_.data(), inliers.size());
+  low_ = range.low;
+  bins_per_unit_ = static_cast<float>(kBinsPerGap) / max_gap;
+  bins_.assign(static_cast<size_t>((range.high - low_) * bins_per_unit_) + 1, 0);
+  const float* weight = inliers.field(Field::kWeight);
+  for (size_t i = 0; i < inliers.size(); ++i) {
+    bins_[static_cast<size_t>((values_[i] - low_) * bins_per_unit_)] += weight[i];
+  }
+  for (size_t bin = 0; bin < bins_.size(); ++bin) {
+    if (bins_[bin] == 0) continue;
+    if (clusters_.empty() || bin > clusters_.back().last_bin + kBinsPerGap) {
+      clusters_.push_back({bin, bin, 0});
+    }
+    clusters_.back().last_bin = bin;
+    clusters_.back().weight += bins_[bin];
+  }
+  if (clusters_.size() <= max_num) return true;
+  std::partial_sort(clusters_.begin(), clusters_.begin() + static_cast<std::ptrdiff_t>(max_num),
+                    clusters_.end(), [](const Cluster& a, const Cluster& b) {
+                      return a.weight != b.weight ? a.weight > b.weight : a.first_bin < b.first_bin;
+                    });
+  clusters_.resize(max_num);
+  return false;
+}
+
+void InlierFilters::KeepClusters(CellArrays* inliers) {
+  KeepIf(
+      [this](size_t i) {
+        const auto bin = static_cast<size_t>((values_[i] - low_) * bins_per_unit_);
+        return std::any_of(clusters_.begin(), clusters_.end(), [bin](const Cluster& cluster) {
+          return bin >= cluster.first_bin && bin <= cluster.last_bin;
+        });
+      },
+      inliers);
+}
+
+float InlierFilters::SpanOf(const Cluster& cluster, size_t num_inliers) const {
+  Range span{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+  for (size_t i = 0; i < num_inliers; ++i) {
+    const auto bin = static_cast<size_t>((values_[i] - low_) * bins_per_unit_);
+    if (bin < cluster.first_bin || bin > cluster.last_bin) continue;
+    span = {std::min(span.low, values_[i]), std::max(span.high, values_[i])};
+  }
+  return span.high - span.low;
+}
+
+void InlierFilters::KeepOneRun(const LineModel& line, float max_gap_m, FeatureMode mode,
+                               CellArrays* inliers) {
+  const Eigen::Vector2f t = line.tangent();
+  values_.resize(inliers->size() + kCellBlock);
+  PositionsAlong(inliers->field(Field::kX), inliers->field(Field::kY), inliers->size(), t.x(),
+                 t.y(), values_.data());
+  if (HasAtMost(1, max_gap_m, *inliers)) return;
   if (mode == FeatureMode::kPaper) {
-    fit->inliers.clear();
-    return;
+    inliers->Resize(0);
+  } else {
+    KeepClusters(inliers);
   }
-  runs.resize(1);
-  KeepInside(along, runs, &fit->inliers);
 }
 
-void KeepOneHeight(const std::vector<SideCell>& cells, float max_gap_m, CircleFit* fit) {
-  const std::vector<float> z =
-      Values(cells, fit->inliers, [](const SideCell& cell) { return cell.z; });
-  std::vector<Span> heights = Clusters(cells, fit->inliers, z, 2 * max_gap_m);
-  if (heights.size() <= 1) return;
-  heights.resize(1);
-  KeepInside(z, heights, &fit->inliers);
+void InlierFilters::KeepOneHeight(float max_gap_m, CellArrays* inliers) {
+  const float* z = inliers->field(Field::kZ);
+  values_.assign(z, z + inliers->size() + kCellBlock);
+  if (!HasAtMost(1, 2 * max_gap_m, *inliers)) KeepClusters(inliers);
 }
 
-void KeepArcs(const std::vector<SideCell>& cells, float max_gap_m, size_t max_arcs,
-              CircleFit* fit) {
+void InlierFilters::KeepArcs(float max_gap_m, size_t max_arcs, CircleModel* circle,
+                             CellArrays* inliers) {
+  const float* x = inliers->field(Field::kX);
+  const float* y = inliers->field(Field::kY);
+  const size_t num = inliers->size();
   // The camera sees at most half of the outside: angles around the mean direction do not wrap.
-  Eigen::Vector2f mean = Eigen::Vector2f::Zero();
-  for (int i : fit->inliers) {
-    const SideCell& cell = cells[static_cast<size_t>(i)];
-    mean += cell.weight * (cell.p - fit->model.c).normalized();
-  }
-  const Eigen::Vector2f across(-mean.y(), mean.x());
-  const std::vector<float> angles = Values(cells, fit->inliers, [&](const SideCell& cell) {
-    const Eigen::Vector2f q = cell.p - fit->model.c;
-    return std::atan2(across.dot(q), mean.dot(q));
-  });
-  const float max_gap_rad = 2 * max_gap_m / std::max(fit->model.r, max_gap_m);
-  std::vector<Span> arcs = Clusters(cells, fit->inliers, angles, max_gap_rad);
-  if (arcs.size() > max_arcs) {
-    arcs.resize(max_arcs);
-    KeepInside(angles, arcs, &fit->inliers);
-  }
-  fit->model.arc = 0;
-  for (const Span& arc : arcs) fit->model.arc += arc.second - arc.first;
+  const PointSums sums =
+      SumPoints(x, y, inliers->field(Field::kWeight), num, circle->c.x(), circle->c.y());
+  const Eigen::Vector2f mean = Eigen::Vector2f(sums.x, sums.y).normalized();
+  values_.resize(num + kCellBlock);
+  Angles(x, y, num, circle->c.x(), circle->c.y(), mean.x(), mean.y(), values_.data());
+  const float max_gap_rad = 2 * max_gap_m / std::max(circle->r, max_gap_m);
+  const bool has_few = HasAtMost(max_arcs, max_gap_rad, *inliers);
+  circle->arc = 0;
+  for (const Cluster& cluster : clusters_) circle->arc += SpanOf(cluster, num);
+  if (!has_few) KeepClusters(inliers);
 }
 
-void KeepOneRadius(const std::vector<SideCell>& cells, float max_step_m, CircleFit* fit) {
+void InlierFilters::KeepOneRadius(const CircleModel& circle, float max_step_m,
+                                  CellArrays* inliers) {
   constexpr float kMinShare = 0.15f;  // of the points on either side of a step
   constexpr float kLayer = 0.004f;    // [m] of height
-  if (fit->inliers.empty()) return;
-  const std::vector<float> z =
-      Values(cells, fit->inliers, [](const SideCell& cell) { return cell.z; });
-  const auto [low, high] = std::minmax_element(z.begin(), z.end());
-  const auto layer_of = [low = *low](float height) {
+  const size_t num = inliers->size();
+  if (num == 0) return;
+  values_.resize(num + kCellBlock);
+  Distances(inliers->field(Field::kX), inliers->field(Field::kY), num, circle.c.x(), circle.c.y(),
+            values_.data());
+  const float* z = inliers->field(Field::kZ);
+  const float* weight = inliers->field(Field::kWeight);
+  const Range range = RangeOf(z, num);
+  const auto layer_of = [low = range.low](float height) {
     return static_cast<size_t>((height - low) / kLayer);
   };
-  std::vector<Eigen::Vector2f> layers(layer_of(*high) + 1, Eigen::Vector2f::Zero());
+  layers_.assign(layer_of(range.high) + 1, Eigen::Vector2f::Zero());
   Eigen::Vector2f total = Eigen::Vector2f::Zero();  // weight, weight times radius
-  for (size_t k = 0; k < z.size(); ++k) {
-    const SideCell& cell = cells[static_cast<size_t>(fit->inliers[k])];
-    const Eigen::Vector2f sums(cell.weight, cell.weight * (cell.p - fit->model.c).norm());
-    layers[layer_of(z[k])] += sums;
+  for (size_t i = 0; i < num; ++i) {
+    const Eigen::Vector2f sums(weight[i], weight[i] * values_[i]);
+    layers_[layer_of(z[i])] += sums;
     total += sums;
   }
   Eigen::Vector2f below = Eigen::Vector2f::Zero();
   float largest_step = max_step_m;
   size_t split = 0;
   bool keep_below = false;
-  for (size_t layer = 0; layer + 1 < layers.size(); ++layer) {
-    below += layers[layer];
+  for (size_t layer = 0; layer + 1 < layers_.size(); ++layer) {
+    below += layers_[layer];
     const Eigen::Vector2f above = total - below;
     if (below.x() < kMinShare * total.x() || above.x() < kMinShare * total.x()) continue;
     const float step = std::abs(below.y() / below.x() - above.y() / above.x());
@@ -157,44 +143,29 @@ void KeepOneRadius(const std::vector<SideCell>& cells, float max_step_m, CircleF
     keep_below = below.x() >= above.x();
   }
   if (largest_step <= max_step_m) return;
-  KeepIf(cells, &fit->inliers,
-         [&](const SideCell& cell) { return (layer_of(cell.z) <= split) == keep_below; });
+  KeepIf([&](size_t i) { return (layer_of(z[i]) <= split) == keep_below; }, inliers);
 }
 
-void KeepFlat(const std::vector<SideCell>& cells, float max_curvature, LineFit* fit) {
-  KeepIf(cells, &fit->inliers,
-         [&](const SideCell& cell) { return cell.curvature <= max_curvature; });
+void InlierFilters::KeepFlat(float max_curvature, CellArrays* inliers) {
+  const float* curvature = inliers->field(Field::kCurvature);
+  KeepIf([&](size_t i) { return curvature[i] <= max_curvature; }, inliers);
 }
 
-void KeepRound(const std::vector<SideCell>& cells, float max_curvature,
-               float max_radius_difference_m, CircleFit* fit) {
-  KeepIf(cells, &fit->inliers, [&](const SideCell& cell) {
-    return cell.curvature > max_curvature &&
-           std::abs(cell.r_min - fit->model.r) <= max_radius_difference_m;
-  });
+void InlierFilters::KeepRound(const CircleModel& circle, float max_curvature,
+                              float max_radius_difference_m, CellArrays* inliers) {
+  const float* curvature = inliers->field(Field::kCurvature);
+  const float* r_min = inliers->field(Field::kMinRadius);
+  KeepIf(
+      [&](size_t i) {
+        return curvature[i] > max_curvature &&
+               std::abs(r_min[i] - circle.r) <= max_radius_difference_m;
+      },
+      inliers);
 }
 
-float MedianKappa(const std::vector<SideCell>& cells, const std::vector<int>& inliers) {
-  std::vector<std::pair<float, float>> values;  // kappa, weight
-  float total = 0;
-  for (int i : inliers) {
-    const SideCell& cell = cells[static_cast<size_t>(i)];
-    values.emplace_back(cell.kappa, cell.weight);
-    total += cell.weight;
-  }
-  std::sort(values.begin(), values.end());
-  float sum = 0;
-  for (const auto& [kappa, weight] : values) {
-    sum += weight;
-    if (sum >= 0.5f * total) return kappa;
-  }
-  return 0;
-}
-
-float NumPoints(const std::vector<SideCell>& cells, const std::vector<int>& inliers) {
-  float sum = 0;
-  for (int i : inliers) sum += cells[static_cast<size_t>(i)].weight;
-  return sum;
+bool IsMedianKappaBelow(float limit, const CellArrays& inliers) {
+  return WeightBelow(inliers.field(Field::kKappa), inliers.field(Field::kWeight), inliers.size(),
+                     limit) >= 0.5f * inliers.NumPoints();
 }
 
 }  // namespace declutter

@@ -38,23 +38,36 @@ std::optional<Face> Join(const Face& a, const Face& b, float max_extent) {
   return joined;
 }
 
+// [m] between the boxes around two hulls, in the direction in which they are farther apart.
+float GapBetween(const TopPatch& a, const TopPatch& b) {
+  Eigen::AlignedBox2f box_a, box_b;
+  for (const Eigen::Vector2f& p : a.hull) box_a.extend(p);
+  for (const Eigen::Vector2f& p : b.hull) box_b.extend(p);
+  return (box_a.min() - box_b.max()).cwiseMax(box_b.min() - box_a.max()).maxCoeff();
+}
+
 }  // namespace
 
-std::vector<Face> WithJoinedFaces(const std::vector<Face>& faces, float max_extent) {
+std::vector<Face> WithJoinedFaces(const std::vector<Face>& faces, float max_extent,
+                                  size_t max_joined) {
   std::vector<Face> all = faces;
   for (size_t i = 0; i < faces.size(); ++i) {
-    for (size_t j = i + 1; j < faces.size(); ++j) {
+    for (size_t j = i + 1; j < faces.size() && all.size() < faces.size() + max_joined; ++j) {
       if (const auto joined = Join(faces[i], faces[j], max_extent)) all.push_back(*joined);
     }
   }
   return all;
 }
 
-std::vector<TopPatch> WithJoinedPatches(const std::vector<TopPatch>& tops) {
+std::vector<TopPatch> WithJoinedPatches(const std::vector<TopPatch>& tops, float max_extent,
+                                        size_t max_joined) {
   std::vector<TopPatch> all = tops;
   for (size_t i = 0; i < tops.size(); ++i) {
-    for (size_t j = i + 1; j < tops.size(); ++j) {
-      if (std::abs(tops[i].height - tops[j].height) > kSameHeight) continue;
+    for (size_t j = i + 1; j < tops.size() && all.size() < tops.size() + max_joined; ++j) {
+      if (std::abs(tops[i].height - tops[j].height) > kSameHeight ||
+          GapBetween(tops[i], tops[j]) > max_extent) {
+        continue;
+      }
       TopPatch joined = tops[i];
       joined.points.insert(joined.points.end(), tops[j].points.begin(), tops[j].points.end());
       joined.hull.insert(joined.hull.end(), tops[j].hull.begin(), tops[j].hull.end());

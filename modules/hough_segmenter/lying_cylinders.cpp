@@ -27,46 +27,68 @@ struct CrossSection {
   }
 };
 
-// Points around and below a top patch, in L, without those on the ends of a cylinder along the
-// axis.
-std::vector<TablePoint> PointsInSection(const std::vector<TablePoint>& points,
-                                        const TopPatch& patch, const CrossSection& section,
-                                        float reach) {
-  float a_min = std::numeric_limits<float>::max(), a_max = -a_min;
-  float b_min = a_min, b_max = a_max;
-  for (const Eigen::Vector2f& p : patch.hull) {
-    a_min = std::min(a_min, section.axis.dot(p));
-    a_max = std::max(a_max, section.axis.dot(p));
-    b_min = std::min(b_min, section.across().dot(p));
-    b_max = std::max(b_max, section.across().dot(p));
-  }
-  std::vector<TablePoint> selected;
-  for (const TablePoint& point : points) {
-    if (point.component != patch.component) continue;
-    const Eigen::Vector3f p_L = section.FromT(point.p_T);
-    const Eigen::Vector3f n_L = section.FromT(point.n_T);
-    if (p_L.z() < a_min || p_L.z() > a_max || p_L.x() < b_min - reach || p_L.x() > b_max + reach ||
-        p_L.y() > patch.height + 0.01f || std::abs(n_L.z()) > kMaxAxialNormal) {
-      continue;
+// What lies around and below a top patch, without what is on the ends of a cylinder along the axis.
+class Section {
+ public:
+  Section(const TopPatch& patch, const CrossSection& frame, float reach)
+      : patch_(patch), frame_(frame) {
+    Eigen::AlignedBox2f box_L;
+    for (const Eigen::Vector2f& p : patch.hull) {
+      box_L.extend(Eigen::Vector2f(frame.across().dot(p), frame.axis.dot(p)));
+      box_T_.extend(p);
     }
-    TablePoint in_section = point;
-    in_section.p_T = p_L;
-    in_section.n_T = n_L;
-    in_section.component = 0;
-    in_section.kappa = 0;
-    selected.push_back(in_section);
+    const Eigen::Vector2f margin = Eigen::Vector2f::Constant(reach);
+    box_T_ = {box_T_.min() - margin, box_T_.max() + margin};
+    low_ = box_L.min() - Eigen::Vector2f(reach, 0);
+    high_ = box_L.max() + Eigen::Vector2f(reach, 0);
   }
-  return selected;
-}
 
-// On a box nearly all normals are horizontal or vertical; around a cylinder they are spread.
-bool IsRound(const std::vector<TablePoint>& points_L, int min_points) {
-  int num_between = 0;
-  for (const TablePoint& point : points_L) {
-    num_between += point.n_T.y() > 0.4f && point.n_T.y() < 0.9f;
+  // Around all of it, in the xy plane of T.
+  const Eigen::AlignedBox2f& box_T() const { return box_T_; }
+
+  bool Contains(const SurfacePoint& point) const {
+    if (point.component != patch_.component || point.p_T.z() > patch_.height + 0.01f) return false;
+    const float x = frame_.across().dot(point.p_T.head<2>());
+    const float z = frame_.axis.dot(point.p_T.head<2>());
+    return x >= low_.x() && x <= high_.x() && z >= low_.y() && z <= high_.y() &&
+           std::abs(frame_.axis.dot(point.n_T.head<2>())) <= kMaxAxialNormal;
   }
-  return static_cast<int>(points_L.size()) >= min_points &&
-         static_cast<float>(num_between) > kMinRoundShare * static_cast<float>(points_L.size());
+
+  TablePoint InFrame(TablePoint point) const {
+    point.p_T = frame_.FromT(point.p_T);
+    point.n_T = frame_.FromT(point.n_T);
+    point.component = 0;
+    point.kappa = 0;
+    return point;
+  }
+
+ private:
+  const TopPatch& patch_;
+  CrossSection frame_;
+  Eigen::AlignedBox2f box_T_;
+  Eigen::Vector2f low_;   // [m] in x and z of L
+  Eigen::Vector2f high_;  // [m]
+};
+
+// The points of a section in L; none unless they can be those of a cylinder: on a box nearly all
+// normals are horizontal or vertical, around a cylinder they are spread.
+std::vector<TablePoint> RoundPoints(const std::vector<TablePoint>& points, const PointGrid& slants,
+                                    const TopPatch& patch, const Section& section, int min_points) {
+  constexpr float kShareOfTop = 0.8f;  // of the points of a patch that are surely in the section
+  float num_slanted = 0;
+  slants.ForEachIn(section.box_T(), [&](const SurfacePoint& point) {
+    if (section.Contains(point)) ++num_slanted;
+  });
+  std::vector<TablePoint> selected;
+  const auto is_round = [&](float num_points) { return num_slanted > kMinRoundShare * num_points; };
+  if (!is_round(kShareOfTop * static_cast<float>(patch.points.size()))) return selected;
+  for (const TablePoint& point : points) {
+    if (!section.Contains(point)) continue;
+    selected.push_back(section.InFrame(point));
+    if (!is_round(static_cast<float>(selected.size()))) return {};
+  }
+  if (static_cast<int>(selected.size()) < min_points) selected.clear();
+  return selected;
 }
 
 Hypothesis MakeHypothesis(const Arc& arc, const CrossSection& section, const TopPatch& patch) {
@@ -98,8 +120,9 @@ void MeasureEnds(const std::vector<TablePoint>& points_L, CircleModel* circle) {
     }
   }
   if (along.size() < 20) return;
-  circle->z_min = Quantile(&along, 0.005);
-  circle->z_max = Quantile(&along, 0.995);
+  const Range ends = Quantiles(&along, 0.005, 0.995);
+  circle->z_min = ends.low;
+  circle->z_max = ends.high;
 }
 
 // Two visible parts of one cylinder with an occluder between them, as one; nothing when they are
@@ -144,27 +167,34 @@ void AddJoined(double max_length, std::vector<Hypothesis>* hypotheses) {
 
 }  // namespace
 
-std::vector<Hypothesis> FindLyingCylinders(const HoughSegmenterConfig& config,
-                                           const std::vector<TablePoint>& points,
-                                           const std::vector<TopPatch>& tops, uint64_t seed) {
+HoughSegmenterConfig SectionConfig(const HoughSegmenterConfig& config) {
   HoughSegmenterConfig section_config = config;
   section_config.set_num_iterations(std::min(config.num_iterations(), kMaxIterations));
   // Curvature is known along horizontal tangents only: here positions and normals decide alone.
-  section_config.set_max_kappa_of_flat(std::numeric_limits<double>::max());
-  section_config.set_min_kappa_radius(0);
+  section_config.set_filter_curvature(false);
+  section_config.set_filter_radius(false);
+  return section_config;
+}
+
+std::vector<Hypothesis> FindLyingCylinders(const HoughSegmenterConfig& config,
+                                           const std::vector<TablePoint>& points,
+                                           const PointGrid& slants,
+                                           const std::vector<TopPatch>& tops, SideCells* side_cells,
+                                           SideSearch* search) {
   const auto max_radius = static_cast<float>(config.max_radius_m());
   std::vector<Hypothesis> hypotheses;
   for (const TopPatch& patch : tops) {
     const Eigen::Vector2f long_axis = MinimumAreaAxis(patch);
     for (const CrossSection& section :
          {CrossSection{long_axis}, CrossSection{{-long_axis.y(), long_axis.x()}}}) {
-      const std::vector<TablePoint> points_L = PointsInSection(points, patch, section, max_radius);
-      if (!IsRound(points_L, config.min_inliers())) continue;
-      const auto cells = SideCells(points_L, 1, static_cast<float>(config.cell_side_m()),
-                                   static_cast<float>(config.cell_height_m()));
+      const std::vector<TablePoint> points_L = RoundPoints(
+          points, slants, patch, Section(patch, section, max_radius), config.min_inliers());
+      if (points_L.empty()) continue;
+      const auto& cells = side_cells->Gather(points_L, 1, static_cast<float>(config.cell_side_m()),
+                                             static_cast<float>(config.cell_height_m()));
       SideDetections detections;
-      DetectSides(section_config, FeatureMode::kDefault, cells[0], patch.component, seed,
-                  &detections);
+      search->fitter.Assign(FeatureMode::kDefault, cells[0], config.seed());
+      DetectSides(patch.component, search, &detections);
       for (Arc& arc : detections.arcs) {
         if (arc.model.arc < kMinArc || arc.model.c.y() - arc.model.r < -kMaxSink) continue;
         MeasureEnds(points_L, &arc.model);

@@ -10,7 +10,7 @@ namespace {
 
 // A point of T at pixel (u, v); the pixels only say which points are neighbours.
 TablePoint Point(const Eigen::Vector3f& p_T, const Eigen::Vector3f& n_T, int u, int v) {
-  return {p_T, n_T, 0, 0, 0, 0.001f, 0, u, v};
+  return {{p_T, n_T, 0.001f, 0}, 0, 0, 0, u, v};
 }
 
 // The upper half of a cylinder of radius 40 mm on the table, its axis along x from x0 to x1, at
@@ -43,8 +43,13 @@ std::vector<Hypothesis> Find(const std::vector<TablePoint>& points) {
   Tabletop tabletop;
   tabletop.objects.camera = {400, 300, 400, 400, 199.5, 149.5};
   tabletop.objects.counts.assign(400 * 300, 0);
-  const auto tops = FindTopPatches(points, tabletop, Eigen::Isometry3d::Identity(), 0.006f, 60);
-  return FindLyingCylinders(HoughSegmenterConfig(), points, tops, 1);
+  const auto tops =
+      TopPatchFinder().Find(points, tabletop, Eigen::Isometry3d::Identity(), 0.006f, 60);
+  PointGrid slants;
+  slants.Assign(points, [](const TablePoint& point) { return point.is_slanted(); });
+  SideCells cells;
+  SideSearch search(SectionConfig(HoughSegmenterConfig()));
+  return FindLyingCylinders(HoughSegmenterConfig(), points, slants, tops, &cells, &search);
 }
 
 // Whether one of them has this length, with the radius and height of AddLyingCylinder.

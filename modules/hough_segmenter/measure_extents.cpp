@@ -12,53 +12,74 @@ constexpr float kMargin = 0.006f;        // [m] around the extent found on cells
 constexpr float kHeightMargin = 0.014f;  // [m] half a cell more
 constexpr float kMinCos = 0.7f;          // normals bend near outlines
 
-void Measure(const std::vector<TablePoint>& points, Face* face) {
+void Measure(const PointGrid& sides, Face* face, std::vector<float>* s_values,
+             std::vector<float>* z_values) {
   LineModel& line = face->model;
-  std::vector<float> s_values;
-  std::vector<float> z_values;
-  for (const TablePoint& point : points) {
-    if (point.component != face->component || !point.is_side()) continue;
-    const Eigen::Vector2f p = point.p_T.head<2>();
-    const float s = line.tangent().dot(p);
-    if (std::abs(line.n.dot(p) - line.rho) > std::max(kMaxDistance, 2.5f * point.sigma) ||
-        s < line.s_min - kMargin || s > line.s_max + kMargin ||
-        line.n.dot(point.n_T.head<2>()) < kMinCos * point.n_T.head<2>().norm()) {
-      continue;
-    }
-    s_values.push_back(s);
-    z_values.push_back(point.p_T.z());
-  }
-  if (s_values.size() < 20) return;
-  line.s_min = Quantile(&s_values, 0.005);
-  line.s_max = Quantile(&s_values, 0.995);
-  line.z_min = Quantile(&z_values, 0.01);
-  line.z_max = Quantile(&z_values, 0.99);
+  const float reach = std::max(kMaxDistance, 2.5f * sides.max_sigma());
+  Eigen::AlignedBox2f box(line.PointAt(line.s_min - kMargin));
+  box.extend(line.PointAt(line.s_max + kMargin));
+  const Eigen::Vector2f margin = Eigen::Vector2f::Constant(reach);
+  s_values->clear();
+  z_values->clear();
+  sides.ForEachIn(
+      {box.min() - margin, box.max() + margin},
+      [&](const Eigen::Vector2f& middle) {
+        return std::abs(line.n.dot(middle) - line.rho) < reach + PointGrid::kHalfDiagonal;
+      },
+      [&](const SurfacePoint& point) {
+        if (point.component != face->component) return;
+        const Eigen::Vector2f p = point.p_T.head<2>();
+        const float s = line.tangent().dot(p);
+        if (std::abs(line.n.dot(p) - line.rho) > std::max(kMaxDistance, 2.5f * point.sigma) ||
+            s < line.s_min - kMargin || s > line.s_max + kMargin ||
+            line.n.dot(point.n_T.head<2>()) < kMinCos * point.n_T.head<2>().norm()) {
+          return;
+        }
+        s_values->push_back(s);
+        z_values->push_back(point.p_T.z());
+      });
+  if (s_values->size() < 20) return;
+  const Range s_range = Quantiles(s_values, 0.005, 0.995);
+  const Range z_range = Quantiles(z_values, 0.01, 0.99);
+  line.s_min = s_range.low;
+  line.s_max = s_range.high;
+  line.z_min = z_range.low;
+  line.z_max = z_range.high;
 }
 
-void Measure(const std::vector<TablePoint>& points, Arc* arc) {
+void Measure(const PointGrid& sides, Arc* arc, std::vector<float>* z_values) {
   CircleModel& circle = arc->model;
-  std::vector<float> z_values;
-  for (const TablePoint& point : points) {
-    if (point.component != arc->component || !point.is_side()) continue;
-    const Eigen::Vector2f q = point.p_T.head<2>() - circle.c;
-    if (std::abs(q.norm() - circle.r) > std::max(kMaxDistance, 2.5f * point.sigma) ||
-        point.p_T.z() < circle.z_min - kHeightMargin ||
-        point.p_T.z() > circle.z_max + kHeightMargin ||
-        q.dot(point.n_T.head<2>()) < kMinCos * q.norm() * point.n_T.head<2>().norm()) {
-      continue;
-    }
-    z_values.push_back(point.p_T.z());
-  }
-  if (z_values.size() < 20) return;
-  circle.z_min = Quantile(&z_values, 0.01);
-  circle.z_max = Quantile(&z_values, 0.99);
+  const float reach = std::max(kMaxDistance, 2.5f * sides.max_sigma());
+  const Eigen::Vector2f half = Eigen::Vector2f::Constant(circle.r + reach);
+  z_values->clear();
+  sides.ForEachIn(
+      {circle.c - half, circle.c + half},
+      [&](const Eigen::Vector2f& middle) {
+        return std::abs((middle - circle.c).norm() - circle.r) < reach + PointGrid::kHalfDiagonal;
+      },
+      [&](const SurfacePoint& point) {
+        if (point.component != arc->component) return;
+        const Eigen::Vector2f q = point.p_T.head<2>() - circle.c;
+        if (std::abs(q.norm() - circle.r) > std::max(kMaxDistance, 2.5f * point.sigma) ||
+            point.p_T.z() < circle.z_min - kHeightMargin ||
+            point.p_T.z() > circle.z_max + kHeightMargin ||
+            q.dot(point.n_T.head<2>()) < kMinCos * q.norm() * point.n_T.head<2>().norm()) {
+          return;
+        }
+        z_values->push_back(point.p_T.z());
+      });
+  if (z_values->size() < 20) return;
+  const Range z_range = Quantiles(z_values, 0.01, 0.99);
+  circle.z_min = z_range.low;
+  circle.z_max = z_range.high;
 }
 
 }  // namespace
 
-void MeasureExtents(const std::vector<TablePoint>& points, Surfaces* surfaces) {
-  for (Face& face : surfaces->faces) Measure(points, &face);
-  for (Arc& arc : surfaces->arcs) Measure(points, &arc);
+void MeasureExtents(const PointGrid& sides, Surfaces* surfaces) {
+  std::vector<float> s_values, z_values;
+  for (Face& face : surfaces->faces) Measure(sides, &face, &s_values, &z_values);
+  for (Arc& arc : surfaces->arcs) Measure(sides, &arc, &z_values);
 }
 
 }  // namespace declutter

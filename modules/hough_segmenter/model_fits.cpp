@@ -8,15 +8,13 @@
 namespace declutter {
 namespace {
 
+using Field = CellArrays::Field;
+
 template <typename Model>
-void SetHeights(const std::vector<SideCell>& cells, Fit<Model>* fit) {
-  fit->model.z_min = std::numeric_limits<float>::max();
-  fit->model.z_max = std::numeric_limits<float>::lowest();
-  for (int i : fit->inliers) {
-    const float z = cells[static_cast<size_t>(i)].z;
-    fit->model.z_min = std::min(fit->model.z_min, z);
-    fit->model.z_max = std::max(fit->model.z_max, z);
-  }
+void SetHeights(const CellArrays& inliers, Model* model) {
+  const Range heights = RangeOf(inliers.field(Field::kZ), inliers.size());
+  model->z_min = heights.low;
+  model->z_max = heights.high;
 }
 
 }  // namespace
@@ -44,63 +42,58 @@ std::optional<CircleModel> CircleThrough(const SideCell& a, const SideCell& b) {
   return circle;
 }
 
-void FitToInliers(const std::vector<SideCell>& cells, LineFit* fit) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  double total = 0;
-  for (int i : fit->inliers) {
-    const SideCell& cell = cells[static_cast<size_t>(i)];
-    const double w = cell.weight / (cell.sigma * cell.sigma);
-    mean += w * cell.p.cast<double>();
-    total += w;
-  }
-  mean /= total;
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
-  for (int i : fit->inliers) {
-    const SideCell& cell = cells[static_cast<size_t>(i)];
-    const Eigen::Vector2d q = cell.p.cast<double>() - mean;
-    scatter += cell.weight / (cell.sigma * cell.sigma) * q * q.transpose();
-  }
+void FitToInliers(const CellArrays& inliers, LineModel* line) {
+  const float* x = inliers.field(Field::kX);
+  const float* y = inliers.field(Field::kY);
+  const PointSums sums =
+      SumPoints(x, y, inliers.field(Field::kFitWeight), inliers.size(), x[0], y[0]);
+  const Eigen::Vector2d mean(double{sums.x} / sums.w, double{sums.y} / sums.w);
+  const double xx = sums.xx - mean.x() * sums.x;
+  const double xy = sums.xy - mean.x() * sums.y;
+  const double yy = sums.yy - mean.y() * sums.y;
   // Direction of the larger axis of the scatter; the normal is across it.
-  const double angle = 0.5 * std::atan2(2 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
+  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
   Eigen::Vector2f n(static_cast<float>(-std::sin(angle)), static_cast<float>(std::cos(angle)));
-  if (n.dot(fit->model.n) < 0) n = -n;
-  fit->model.n = n;
-  fit->model.rho = n.dot(mean.cast<float>());
+  if (n.dot(line->n) < 0) n = -n;
+  line->n = n;
+  line->rho = n.dot(Eigen::Vector2f(x[0], y[0]) + mean.cast<float>());
 }
 
-void FitToInliers(const std::vector<SideCell>& cells, CircleFit* fit) {
-  Eigen::Vector3d x(fit->model.c.x(), fit->model.c.y(), fit->model.r);
-  for (int iteration = 0; iteration < 4; ++iteration) {
-    Eigen::Matrix3d H = Eigen::Matrix3d::Identity() * 1e-9;
-    Eigen::Vector3d g = Eigen::Vector3d::Zero();
-    for (int i : fit->inliers) {
-      const SideCell& cell = cells[static_cast<size_t>(i)];
-      const double w = cell.weight / (cell.sigma * cell.sigma);
-      const Eigen::Vector2d q = cell.p.cast<double>() - x.head<2>();
-      const double distance = std::max(q.norm(), 1e-6);
-      const Eigen::Vector3d J(-q.x() / distance, -q.y() / distance, -1.0);
-      H += w * J * J.transpose();
-      g += w * J * (distance - x.z());
-    }
-    x -= H.ldlt().solve(g);
+void FitToInliers(const CellArrays& inliers, CircleModel* circle) {
+  constexpr int kMaxSteps = 4;
+  constexpr double kMinStep = 1e-6;  // [m]
+  Eigen::Vector3d x(circle->c.x(), circle->c.y(), circle->r);
+  for (int k = 0; k < kMaxSteps; ++k) {
+    const Eigen::Vector3f at = x.cast<float>();
+    const CircleSums sums =
+        SumCircle(inliers.field(Field::kX), inliers.field(Field::kY),
+                  inliers.field(Field::kFitWeight), inliers.size(), {at.x(), at.y(), at.z()});
+    Eigen::Matrix3d H;
+    H << sums.xx, sums.xy, sums.x, sums.xy, sums.yy, sums.y, sums.x, sums.y, sums.w;
+    H.diagonal().array() += 1e-9;
+    const Eigen::Vector3d step = H.ldlt().solve(Eigen::Vector3d(sums.xe, sums.ye, sums.e));
+    x = at.cast<double>() + step;
+    if (!(step.cwiseAbs().maxCoeff() > kMinStep)) break;
   }
   if (!x.allFinite() || x.z() <= 0) return;
-  fit->model.c = x.head<2>().cast<float>();
-  fit->model.r = static_cast<float>(x.z());
+  circle->c = x.head<2>().cast<float>();
+  circle->r = static_cast<float>(x.z());
 }
 
-void SetExtent(const std::vector<SideCell>& cells, LineFit* fit) {
-  const Eigen::Vector2f t = fit->model.tangent();
-  fit->model.s_min = std::numeric_limits<float>::max();
-  fit->model.s_max = std::numeric_limits<float>::lowest();
-  for (int i : fit->inliers) {
-    const float s = t.dot(cells[static_cast<size_t>(i)].p);
-    fit->model.s_min = std::min(fit->model.s_min, s);
-    fit->model.s_max = std::max(fit->model.s_max, s);
+void SetExtent(const CellArrays& inliers, LineModel* line) {
+  const Eigen::Vector2f t = line->tangent();
+  line->s_min = std::numeric_limits<float>::max();
+  line->s_max = std::numeric_limits<float>::lowest();
+  const float* x = inliers.field(Field::kX);
+  const float* y = inliers.field(Field::kY);
+  for (size_t i = 0; i < inliers.size(); ++i) {
+    const float s = t.x() * x[i] + t.y() * y[i];
+    line->s_min = std::min(line->s_min, s);
+    line->s_max = std::max(line->s_max, s);
   }
-  SetHeights(cells, fit);
+  SetHeights(inliers, line);
 }
 
-void SetExtent(const std::vector<SideCell>& cells, CircleFit* fit) { SetHeights(cells, fit); }
+void SetExtent(const CellArrays& inliers, CircleModel* circle) { SetHeights(inliers, circle); }
 
 }  // namespace declutter

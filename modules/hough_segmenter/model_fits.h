@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "modules/hough_segmenter/side_cells.h"
+#include "modules/hough_segmenter/cell_arrays.h"
+#include "modules/hough_segmenter/cell_set.h"
 
 namespace declutter {
 
@@ -36,9 +37,9 @@ struct CircleModel {
 template <typename Model>
 struct Fit {
   Model model;
-  float support = 0;         // [px] weighted by how well each inlier fits
-  float num_points = 0;      // [px] in all inliers
-  std::vector<int> inliers;  // indices of cells, ascending
+  float support = 0;     // [px] weighted by how well each inlier fits
+  float num_points = 0;  // [px] in all inliers
+  CellSet inliers;
 };
 using LineFit = Fit<LineModel>;
 using CircleFit = Fit<CircleModel>;
@@ -50,13 +51,18 @@ LineModel LineThrough(const SideCell& a, const SideCell& b);
 // parallel or meet outside.
 std::optional<CircleModel> CircleThrough(const SideCell& a, const SideCell& b);
 
-// Least squares on the inliers of the fit, weighted by points and noise: total least squares for
-// the line, whose normal keeps its side, Gauss-Newton on the distances for the circle.
-void FitToInliers(const std::vector<SideCell>& cells, LineFit* fit);
-void FitToInliers(const std::vector<SideCell>& cells, CircleFit* fit);
+// Least squares on the inliers, weighted by points and noise: total least squares for the line,
+// whose normal keeps its side, Gauss-Newton on the distances for the circle. There must be inliers.
+void FitToInliers(const CellArrays& inliers, LineModel* line);
+void FitToInliers(const CellArrays& inliers, CircleModel* circle);
 
 // Sets extent and heights of the model from the inliers, of which there must be some.
-void SetExtent(const std::vector<SideCell>& cells, LineFit* fit);
-void SetExtent(const std::vector<SideCell>& cells, CircleFit* fit);
+void SetExtent(const CellArrays& inliers, LineModel* line);
+void SetExtent(const CellArrays& inliers, CircleModel* circle);
+
+inline LineShape ShapeOf(const LineModel& line) { return {line.n.x(), line.n.y(), line.rho}; }
+inline CircleShape ShapeOf(const CircleModel& circle) {
+  return {circle.c.x(), circle.c.y(), circle.r};
+}
 
 }  // namespace declutter

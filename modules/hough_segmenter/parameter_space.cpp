@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace declutter {
 namespace {
@@ -22,6 +25,14 @@ bool IsNear(const CircleModel& a, const CircleModel& b) {
   return (a.c - b.c).norm() < kMaxDistance && std::abs(a.r - b.r) < kMaxDistance &&
          std::min(a.z_max, b.z_max) >= std::max(a.z_min, b.z_min);
 }
+
+// Votes whose keys differ by more than this are not near.
+float KeyOf(const LineModel& line) { return std::atan2(line.n.y(), line.n.x()); }
+float KeyOf(const CircleModel& circle) { return circle.c.x(); }
+float MaxKeyDifference(const LineModel&) { return kMaxAngle; }
+float MaxKeyDifference(const CircleModel&) { return kMaxDistance; }
+float PeriodOf(const LineModel&) { return static_cast<float>(2 * M_PI); }
+float PeriodOf(const CircleModel&) { return std::numeric_limits<float>::infinity(); }
 
 // Adds weight * model to a sum that Normalise turns into the mean.
 void AddTo(LineModel* sum, const LineModel& m, float weight) {
@@ -65,51 +76,103 @@ CircleModel ZeroSum(const CircleModel& model) {
 }  // namespace
 
 template <typename Model>
+void ParameterSpace<Model>::Add(const Fit<Model>& fit) {
+  if (num_votes_ == votes_.size()) votes_.emplace_back();
+  Vote& vote = votes_[num_votes_++];
+  vote.fit = fit;
+  vote.key = KeyOf(fit.model);
+  vote.num_open = fit.num_points;
+  vote.is_left = true;
+}
+
+template <typename Model>
+void ParameterSpace<Model>::Connect() {
+  order_.resize(num_votes_);
+  std::iota(order_.begin(), order_.end(), size_t{0});
+  std::sort(order_.begin(), order_.end(), [this](size_t i, size_t j) {
+    return std::pair(votes_[i].key, i) < std::pair(votes_[j].key, j);
+  });
+  pairs_.clear();
+  for (size_t i : order_) votes_[i].num_neighbours = 0;
+  for (size_t k = 0; k < num_votes_; ++k) {
+    // Those next in order, around the circle for angles.
+    for (size_t step = 0; step < num_votes_; ++step) {
+      const size_t i = order_[k];
+      const size_t j = order_[(k + step) % num_votes_];
+      const float turn = k + step < num_votes_ ? 0 : PeriodOf(votes_[i].fit.model);
+      if (votes_[j].key + turn - votes_[i].key > MaxKeyDifference(votes_[i].fit.model)) break;
+      if (i != j && !IsNear(votes_[i].fit.model, votes_[j].fit.model)) continue;
+      pairs_.emplace_back(i, j);
+      ++votes_[i].num_neighbours;
+      if (i != j) ++votes_[j].num_neighbours;
+    }
+  }
+  size_t sum = 0;
+  for (size_t i = 0; i < num_votes_; ++i) {
+    votes_[i].first_neighbour = sum;
+    sum += votes_[i].num_neighbours;
+    votes_[i].num_neighbours = 0;
+    votes_[i].density = 0;
+  }
+  neighbours_.resize(sum);
+  const auto connect = [this](size_t i, size_t j) {
+    neighbours_[votes_[i].first_neighbour + votes_[i].num_neighbours++] = j;
+    votes_[i].density += votes_[j].fit.support;
+  };
+  for (const auto& [i, j] : pairs_) {
+    connect(i, j);
+    if (i != j) connect(j, i);
+  }
+}
+
+template <typename Model>
+template <typename Visit>
+void ParameterSpace<Model>::ForEachLeftNear(size_t vote, Visit visit) const {
+  const size_t begin = votes_[vote].first_neighbour;
+  for (size_t k = begin; k < begin + votes_[vote].num_neighbours; ++k) {
+    if (votes_[neighbours_[k]].is_left) visit(neighbours_[k]);
+  }
+}
+
+template <typename Model>
 std::optional<typename ParameterSpace<Model>::Peak> ParameterSpace<Model>::HighestPeak() const {
-  const Fit<Model>* best = nullptr;
-  float best_density = 0;
-  for (const Fit<Model>& vote : votes_) {
-    float density = 0;
-    for (const Fit<Model>& other : votes_) {
-      if (IsNear(vote.model, other.model)) density += other.support;
-    }
-    if (density > best_density) {
-      best_density = density;
-      best = &vote;
-    }
+  std::optional<size_t> best;
+  for (size_t i = 0; i < num_votes_; ++i) {
+    if (votes_[i].is_left && (!best || votes_[i].density > votes_[*best].density)) best = i;
   }
-  if (best == nullptr) return std::nullopt;
+  if (!best) return std::nullopt;
   Peak peak;
-  peak.strongest = best->model;
-  peak.model = ZeroSum(best->model);
-  for (const Fit<Model>& vote : votes_) {
-    if (!IsNear(best->model, vote.model)) continue;
-    AddTo(&peak.model, vote.model, vote.support);
-    peak.density += vote.support;
+  peak.strongest = *best;
+  peak.model = ZeroSum(votes_[*best].fit.model);
+  ForEachLeftNear(*best, [&](size_t i) {
+    const Fit<Model>& fit = votes_[i].fit;
+    AddTo(&peak.model, fit.model, fit.support);
+    peak.density += fit.support;
     ++peak.num_votes;
-  }
+  });
   Normalise(&peak.model, peak.density);
   return peak;
 }
 
 template <typename Model>
-void ParameterSpace<Model>::Remove(const Model& model) {
-  votes_.erase(std::remove_if(votes_.begin(), votes_.end(),
-                              [&](const auto& vote) { return IsNear(model, vote.model); }),
-               votes_.end());
+void ParameterSpace<Model>::Forget(size_t vote) {
+  ForEachLeftNear(vote, [&](size_t i) { votes_[i].density -= votes_[vote].fit.support; });
+  votes_[vote].is_left = false;
 }
 
 template <typename Model>
-void ParameterSpace<Model>::KeepSupported(const std::vector<SideCell>& cells,
-                                          const std::vector<char>& is_free) {
-  const auto is_lost = [&](const Fit<Model>& vote) {
-    float free_points = 0;
-    for (int i : vote.inliers) {
-      if (is_free[static_cast<size_t>(i)]) free_points += cells[static_cast<size_t>(i)].weight;
-    }
-    return free_points < 0.5f * vote.num_points;
-  };
-  votes_.erase(std::remove_if(votes_.begin(), votes_.end(), is_lost), votes_.end());
+void ParameterSpace<Model>::Remove(const Peak& peak) {
+  ForEachLeftNear(peak.strongest, [this](size_t i) { Forget(i); });
+}
+
+template <typename Model>
+void ParameterSpace<Model>::Explain(const std::vector<SideCell>& cells, const CellSet& explained) {
+  for (size_t i = 0; i < num_votes_; ++i) {
+    Vote& vote = votes_[i];
+    if (!vote.is_left) continue;
+    vote.fit.inliers.ForEachIn(explained, [&](size_t c) { vote.num_open -= cells[c].weight; });
+    if (vote.num_open < 0.5f * vote.fit.num_points) Forget(i);
+  }
 }
 
 template class ParameterSpace<LineModel>;

@@ -3,214 +3,255 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "modules/hough_segmenter/inlier_filters.h"
+#include <numeric>
+#include <utility>
 
 namespace declutter {
 namespace {
 
-constexpr float kBucketSide = 0.05f;       // [m] squares in which the partner of a sample is drawn
-constexpr size_t kMaxScoredCells = 400;    // cells that decide between samples
+constexpr size_t kMaxScoredCells = 256;    // cells that decide between samples
+constexpr size_t kFirstScoredCells = 64;   // cells that decide which samples are scored on all
+constexpr size_t kMinFinalists = 6;        // samples that are
 constexpr float kMinBaseline = 0.008f;     // [m] of the two cells of a sample
-constexpr int kMaxDraws = 12;              // of a partner, before a sample is given up
+constexpr int kMaxDraws = 4;               // of a partner, before a sample is given up
 constexpr float kMinKappaLength = 0.045f;  // [m] of a line whose curvature says something
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
-constexpr float kMaxRadiusStep = 0.003f;  // [m] between the lower and upper part of a cylinder
+constexpr float kMaxRadiusStep = 0.003f;    // [m] between the lower and upper part of a cylinder
+constexpr float kSlackBeforeRefit = 2.0f;   // of the limits of a model that is not yet refitted
+constexpr double kMinCosUnfiltered = -1e6;  // so far below every cosine that all agree alike
 
 }  // namespace
 
-SideFitter::SideFitter(const HoughSegmenterConfig& config, FeatureMode mode,
-                       const std::vector<SideCell>& cells, uint64_t seed)
+SideFitter::SideFitter(const HoughSegmenterConfig& config)
     : config_(config),
-      mode_(mode),
-      cells_(cells),
-      arrays_(config),
-      random_(seed),
-      subsample_arrays_(config) {
-  arrays_.Assign(cells);
-  if (cells.empty()) return;
-  Eigen::Vector2f low = cells[0].p;
-  Eigen::Vector2f high = low;
-  for (const SideCell& cell : cells) {
-    low = low.cwiseMin(cell.p);
-    high = high.cwiseMax(cell.p);
-  }
-  num_bucket_columns_ = static_cast<int>((high.x() - low.x()) / kBucketSide) + 1;
-  const int num_rows = static_cast<int>((high.y() - low.y()) / kBucketSide) + 1;
-  buckets_.resize(static_cast<size_t>(num_bucket_columns_ * num_rows));
+      min_cos_(static_cast<float>(config.filter_normals() ? std::cos(config.max_normal_angle_rad())
+                                                          : kMinCosUnfiltered)) {}
+
+void SideFitter::Assign(FeatureMode mode, const std::vector<SideCell>& cells, uint64_t seed,
+                        int64_t max_tests) {
+  max_tests_ = max_tests;
+  num_tests_ = 0;
+  mode_ = mode;
+  cells_ = &cells;
+  random_ = RandomIndex(seed);
+  order_.resize(cells.size());
+  std::iota(order_.begin(), order_.end(), size_t{0});
+  open_.Resize(cells.size());
   for (size_t i = 0; i < cells.size(); ++i) {
-    const Eigen::Vector2f q = (cells[i].p - low) / kBucketSide;
-    const int bucket = static_cast<int>(q.y()) * num_bucket_columns_ + static_cast<int>(q.x());
-    bucket_of_cell_.push_back(bucket);
-    buckets_[static_cast<size_t>(bucket)].push_back(static_cast<int>(i));
+    std::swap(order_[i], order_[i + random_(cells.size() - i)]);
+    open_.Set(i, cells[order_[i]], order_[i], static_cast<float>(config_.inlier_distance_m()));
   }
+  buckets_.Assign(cells);
+  place_.resize(cells.size());
+  Restart();
 }
 
-void SideFitter::Subsample(const std::vector<char>& is_free) {
-  subsample_.clear();
-  for (size_t i = 0; i < cells_.size(); ++i) {
-    if (is_free[i]) subsample_.push_back(static_cast<int>(i));
+void SideFitter::Restart() {
+  pairs_.clear();
+  num_left_ = open_.size();
+  const float* weights = open_.field(CellArrays::kWeight);
+  left_weights_.assign(weights, weights + num_left_ + kCellBlock);
+  num_points_left_ = open_.NumPoints();
+  for (size_t i = 0; i < num_left_; ++i) place_[open_.IndexOf(i)] = i;
+  buckets_.Restore();
+}
+
+void SideFitter::Take(const CellSet& inliers) {
+  pairs_.clear();
+  inliers.ForEach([this](size_t cell) {
+    float& weight = left_weights_[place_[cell]];
+    num_points_left_ -= weight;
+    weight = 0;
+    --num_left_;
+    buckets_.Remove(cell);
+  });
+}
+
+void SideFitter::Explain(const CellSet& cells) {
+  marks_.resize(open_.size() + kCellBlock);
+  for (size_t i = 0; i < open_.size(); ++i) {
+    marks_[i] = cells.Contains(open_.IndexOf(i)) ? 0.0f : 1.0f;
   }
-  if (subsample_.size() > kMaxScoredCells) {
-    for (size_t i = 0; i < kMaxScoredCells; ++i) {
-      std::swap(subsample_[i], subsample_[i + random_(subsample_.size() - i)]);
+  open_.KeepMarked(marks_);
+  buckets_.Restore();
+  cells.ForEach([this](size_t i) { buckets_.Remove(i); });
+  buckets_.Keep();
+}
+
+CellView SideFitter::OpenCells(const float* weights) const {
+  CellView cells = open_.view();
+  cells.weight = weights;
+  return cells;
+}
+
+std::optional<LineModel> SideFitter::ModelThrough(size_t a, size_t b, const LineModel*) const {
+  const SideCell& cell_a = (*cells_)[a];
+  const SideCell& cell_b = (*cells_)[b];
+  const LineModel line = LineThrough(cell_a, cell_b);
+  if (line.n.dot(cell_a.n) <= min_cos_ || line.n.dot(cell_b.n) <= min_cos_) return std::nullopt;
+  return line;
+}
+
+std::optional<CircleModel> SideFitter::ModelThrough(size_t a, size_t b, const CircleModel*) const {
+  const SideCell& cell_a = (*cells_)[a];
+  const SideCell& cell_b = (*cells_)[b];
+  const auto circle = CircleThrough(cell_a, cell_b);
+  if (!circle || circle->r < config_.min_radius_m() || circle->r > config_.max_radius_m()) {
+    return std::nullopt;
+  }
+  const auto distance = static_cast<float>(config_.inlier_distance_m());
+  for (const SideCell* cell : {&cell_a, &cell_b}) {
+    const float offset = (cell->p - circle->c).norm() - circle->r;
+    if (std::abs(offset) > InlierLimit(*cell, distance)) return std::nullopt;
+  }
+  return circle;
+}
+
+void SideFitter::DrawPairs() {
+  for (int i = 0; i < config_.num_samples(); ++i) {
+    size_t place = random_(open_.size());
+    while (left_weights_[place] == 0) place = random_(open_.size());
+    const size_t a = open_.IndexOf(place);
+    for (int draw = 0; draw < kMaxDraws; ++draw) {
+      const auto b = buckets_.DrawNear(a, &random_);
+      if (!b || ((*cells_)[a].p - (*cells_)[*b].p).norm() <= kMinBaseline) continue;
+      pairs_.emplace_back(a, *b);
+      break;
     }
-    subsample_.resize(kMaxScoredCells);
   }
-  subsample_arrays_.Gather(arrays_, subsample_);
 }
 
-std::optional<std::pair<int, int>> SideFitter::SamplePair(const std::vector<char>& is_free) {
-  const int a = subsample_[random_(subsample_.size())];
-  const int bucket = bucket_of_cell_[static_cast<size_t>(a)];
-  for (int draw = 0; draw < kMaxDraws; ++draw) {
-    const int dx = static_cast<int>(random_(3)) - 1;
-    const int dy = static_cast<int>(random_(3)) - 1;
-    const int column = bucket % num_bucket_columns_ + dx;
-    const int neighbour = bucket + dy * num_bucket_columns_ + dx;
-    if (column < 0 || column >= num_bucket_columns_ || neighbour < 0 ||
-        neighbour >= static_cast<int>(buckets_.size())) {
-      continue;
+template <typename Model>
+void SideFitter::FindCandidates(std::vector<Candidate<Model>>* candidates) {
+  if (pairs_.empty()) DrawPairs();
+  candidates->clear();
+  for (const auto& [a, b] : pairs_) {
+    const auto model = ModelThrough(a, b, static_cast<const Model*>(nullptr));
+    if (model) candidates->push_back({*model});
+  }
+}
+
+template <typename Model>
+bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* fit) {
+  if (is_spent() || num_left_ == 0 ||
+      num_points_left_ < static_cast<float>(config_.min_inliers())) {
+    return false;
+  }
+  FindCandidates(candidates);
+  if (candidates->empty()) return false;
+  // Parts of the open cells in which about so many are left.
+  const auto part_with = [this](size_t num) {
+    return std::min(open_.size(), num * open_.size() / num_left_);
+  };
+  const size_t num_scored = part_with(kMaxScoredCells);
+  const size_t num_first = part_with(kFirstScoredCells);
+  const size_t begin = random_(open_.size() - num_scored + 1);
+  const auto is_better = [](const auto& x, const auto& y) { return x.score > y.score; };
+  const CellView left = OpenCells(left_weights_.data());
+  const CellView first = left.Part(begin, num_first);
+  num_tests_ += static_cast<int64_t>(candidates->size() * num_first);
+  for (auto& candidate : *candidates) {
+    candidate.score = Support(first, ShapeOf(candidate.model), min_cos_);
+  }
+  if (num_scored > num_first) {
+    std::stable_sort(candidates->begin(), candidates->end(), is_better);
+    candidates->resize(
+        std::min(candidates->size(), std::max(kMinFinalists, candidates->size() / 4)));
+    const CellView rest = left.Part(begin + num_first, num_scored - num_first);
+    num_tests_ += static_cast<int64_t>(candidates->size() * rest.num);
+    for (auto& candidate : *candidates) {
+      candidate.score += Support(rest, ShapeOf(candidate.model), min_cos_);
     }
-    const auto& candidates = buckets_[static_cast<size_t>(neighbour)];
-    if (candidates.empty()) continue;
-    const int b = candidates[random_(candidates.size())];
-    const float baseline =
-        (cells_[static_cast<size_t>(a)].p - cells_[static_cast<size_t>(b)].p).norm();
-    if (is_free[static_cast<size_t>(b)] && baseline > kMinBaseline) return std::pair(a, b);
   }
-  return std::nullopt;
+  // The first of the best ones.
+  const auto best = std::min_element(candidates->begin(), candidates->end(), is_better);
+  return best->score > 0 && RefitTo(best->model, left_weights_.data(), fit);
 }
 
-void SideFitter::Filter(LineFit* fit) const {
+void SideFitter::Filter(LineModel* line) {
   if (mode_ == FeatureMode::kPaper && config_.filter_curvature()) {
-    KeepFlat(cells_, static_cast<float>(config_.max_curvature_of_flat()), fit);
+    filters_.KeepFlat(static_cast<float>(config_.max_curvature_of_flat()), &inliers_);
   }
   if (config_.filter_runs()) {
-    KeepOneRun(cells_, static_cast<float>(config_.max_gap_m()), mode_, fit);
+    filters_.KeepOneRun(*line, static_cast<float>(config_.max_gap_m()), mode_, &inliers_);
   }
 }
 
-void SideFitter::Filter(CircleFit* fit) const {
+void SideFitter::Filter(CircleModel* circle) {
   const auto max_gap = static_cast<float>(config_.max_gap_m());
   if (mode_ == FeatureMode::kPaper) {
-    KeepRound(
-        cells_,
+    filters_.KeepRound(
+        *circle,
         config_.filter_curvature() ? static_cast<float>(config_.max_curvature_of_flat())
                                    : -kNoLimit,
         config_.filter_radius() ? static_cast<float>(config_.max_radius_difference_m()) : kNoLimit,
-        fit);
+        &inliers_);
   }
-  if (config_.filter_heights()) KeepOneHeight(cells_, max_gap, fit);
-  KeepArcs(cells_, max_gap, config_.filter_arcs() ? 2 : cells_.size(), fit);
-  if (config_.filter_heights()) KeepOneRadius(cells_, kMaxRadiusStep, fit);
+  if (config_.filter_heights()) filters_.KeepOneHeight(max_gap, &inliers_);
+  filters_.KeepArcs(max_gap, config_.filter_arcs() ? 2 : cells_->size(), circle, &inliers_);
+  if (config_.filter_heights()) filters_.KeepOneRadius(*circle, kMaxRadiusStep, &inliers_);
 }
 
-bool SideFitter::IsPossible(const LineFit& fit) const {
+bool SideFitter::IsPossible(const LineModel& line, float slack) const {
   // Within the reach of the features from its outlines a narrow face looks round.
   return mode_ == FeatureMode::kPaper || !config_.filter_curvature() ||
-         fit.model.length() <= kMinKappaLength ||
-         MedianKappa(cells_, fit.inliers) <= config_.max_kappa_of_flat();
+         line.length() <= kMinKappaLength ||
+         IsMedianKappaBelow(slack * static_cast<float>(config_.max_kappa_of_flat()), inliers_);
 }
 
-bool SideFitter::IsPossible(const CircleFit& fit) const {
-  if (fit.model.r < config_.min_radius_m() || fit.model.r > config_.max_radius_m()) return false;
-  return mode_ == FeatureMode::kPaper || !config_.filter_radius() ||
-         MedianKappa(cells_, fit.inliers) * fit.model.r >= config_.min_kappa_radius();
-}
-
-template <typename Model>
-Fit<Model> SideFitter::Inliers(const Model& model, const std::vector<char>& is_free,
-                               std::vector<float>* agreements) const {
-  Fit<Model> fit;
-  fit.model = model;
-  arrays_.Agreements(model, agreements);
-  for (size_t i = 0; i < cells_.size(); ++i) {
-    if ((*agreements)[i] > 0 && is_free[i]) fit.inliers.push_back(static_cast<int>(i));
+bool SideFitter::IsPossible(const CircleModel& circle, float slack) const {
+  const auto r = static_cast<double>(circle.r);
+  if (r < config_.min_radius_m() / double{slack} || r > double{slack} * config_.max_radius_m()) {
+    return false;
   }
-  fit.num_points = NumPoints(cells_, fit.inliers);
-  if (fit.num_points < static_cast<float>(config_.min_inliers())) return fit;
-  Filter(&fit);
-  fit.num_points = NumPoints(cells_, fit.inliers);
-  return fit;
+  if (mode_ == FeatureMode::kPaper || !config_.filter_radius()) return true;
+  const double min_kappa = config_.min_kappa_radius() / (r * double{slack});
+  return !IsMedianKappaBelow(static_cast<float>(min_kappa), inliers_);
 }
 
 template <typename Model>
-std::optional<Fit<Model>> SideFitter::RefitTo(const Model& model,
-                                              const std::vector<char>& is_free) const {
+bool SideFitter::FindInliers(const float* weights, Model* model) {
   const auto min_points = static_cast<float>(config_.min_inliers());
-  std::vector<float> agreements;
-  Fit<Model> fit = Inliers(model, is_free, &agreements);
-  if (fit.num_points < min_points) return std::nullopt;
-  FitToInliers(cells_, &fit);
-  fit = Inliers(fit.model, is_free, &agreements);
-  if (fit.num_points < min_points) return std::nullopt;
-  SetExtent(cells_, &fit);
-  if (!IsPossible(fit)) return std::nullopt;
-  for (int i : fit.inliers) {
-    const auto index = static_cast<size_t>(i);
-    fit.support += cells_[index].weight * agreements[index];
-  }
-  return fit;
+  const CellView cells = OpenCells(weights);
+  float* agreements = open_.field(CellArrays::kAgreement);
+  num_tests_ += static_cast<int64_t>(cells.num);
+  Agreements(cells, ShapeOf(*model), min_cos_, agreements);
+  inliers_.CopyMarked(open_, agreements,
+                      mode_ == FeatureMode::kPaper ? CellArrays::kNumPaperFieldsOfInlier
+                                                   : CellArrays::kNumFieldsOfInlier);
+  if (inliers_.NumPoints() < min_points) return false;
+  Filter(model);
+  return inliers_.NumPoints() >= min_points;
 }
 
-std::optional<LineFit> SideFitter::Refit(const LineModel& model,
-                                         const std::vector<char>& is_free) const {
-  return RefitTo(model, is_free);
+template <typename Model>
+bool SideFitter::RefitTo(Model model, const float* weights, Fit<Model>* fit) {
+  if (!FindInliers(weights, &model)) return false;
+  SetExtent(inliers_, &model);
+  if (!IsPossible(model, kSlackBeforeRefit)) return false;
+  FitToInliers(inliers_, &model);
+  if (!FindInliers(weights, &model)) return false;
+  SetExtent(inliers_, &model);
+  if (!IsPossible(model, 1)) return false;
+  fit->model = model;
+  fit->num_points = inliers_.NumPoints();
+  fit->support = SumOfProducts(inliers_.field(CellArrays::kWeight),
+                               inliers_.field(CellArrays::kAgreement), inliers_.size());
+  fit->inliers.Clear(cells_->size());
+  for (size_t i = 0; i < inliers_.size(); ++i) fit->inliers.Add(inliers_.IndexOf(i));
+  return true;
 }
 
-std::optional<CircleFit> SideFitter::Refit(const CircleModel& model,
-                                           const std::vector<char>& is_free) const {
-  return RefitTo(model, is_free);
+bool SideFitter::FitLine(LineFit* fit) { return FitBest(&lines_, fit); }
+
+bool SideFitter::FitCircle(CircleFit* fit) { return FitBest(&circles_, fit); }
+
+bool SideFitter::Refit(const LineModel& model, LineFit* fit) {
+  return RefitTo(model, open_.field(CellArrays::kWeight), fit);
 }
 
-template <typename Model, typename Sample>
-std::optional<Model> SideFitter::BestSample(Sample sample) const {
-  std::optional<Model> best;
-  float best_score = 0;
-  std::vector<float> agreements;
-  for (int i = 0; i < config_.num_samples(); ++i) {
-    const std::optional<Model> model = sample();
-    if (!model) continue;
-    subsample_arrays_.Agreements(*model, &agreements);
-    const float score = subsample_arrays_.Support(agreements);
-    if (score <= best_score) continue;
-    best_score = score;
-    best = model;
-  }
-  return best;
-}
-
-std::optional<LineFit> SideFitter::FitLine(const std::vector<char>& is_free) {
-  Subsample(is_free);
-  if (subsample_.empty()) return std::nullopt;
-  const auto best = BestSample<LineModel>([&]() -> std::optional<LineModel> {
-    const auto pair = SamplePair(is_free);
-    if (!pair) return std::nullopt;
-    const SideCell& a = cells_[static_cast<size_t>(pair->first)];
-    const LineModel line = LineThrough(a, cells_[static_cast<size_t>(pair->second)]);
-    if (line.n.dot(a.n) <= arrays_.min_cos()) return std::nullopt;
-    return line;
-  });
-  if (!best) return std::nullopt;
-  return RefitTo(*best, is_free);
-}
-
-std::optional<CircleFit> SideFitter::FitCircle(const std::vector<char>& is_free) {
-  Subsample(is_free);
-  if (subsample_.empty()) return std::nullopt;
-  const auto best = BestSample<CircleModel>([&]() -> std::optional<CircleModel> {
-    const auto pair = SamplePair(is_free);
-    if (!pair) return std::nullopt;
-    const auto circle = CircleThrough(cells_[static_cast<size_t>(pair->first)],
-                                      cells_[static_cast<size_t>(pair->second)]);
-    if (!circle || circle->r < config_.min_radius_m() || circle->r > config_.max_radius_m()) {
-      return std::nullopt;
-    }
-    return circle;
-  });
-  if (!best) return std::nullopt;
-  return RefitTo(*best, is_free);
+bool SideFitter::Refit(const CircleModel& model, CircleFit* fit) {
+  return RefitTo(model, open_.field(CellArrays::kWeight), fit);
 }
 
 }  // namespace declutter

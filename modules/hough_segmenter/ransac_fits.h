@@ -1,67 +1,114 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "modules/geometry/feature_cloud.h"
-#include "modules/geometry/random_index.h"
-#include "modules/hough_segmenter/cell_arrays.h"
+#include "modules/hough_segmenter/cell_buckets.h"
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
+#include "modules/hough_segmenter/inlier_filters.h"
 #include "modules/hough_segmenter/model_fits.h"
 
 namespace declutter {
 
 // RANSAC fits of 2D lines and circles to the side cells of one component (paper, section 4), with
-// the inlier filters of section 5.
+// the inlier filters of section 5. Components come one after the other and use the same memory.
+//
+// Cells are open until a detection explains them. An iteration of section 4 begins with all open
+// cells and takes the inliers of its fits out, for itself alone.
 class SideFitter {
  public:
-  // cells must outlive the fitter.
-  SideFitter(const HoughSegmenterConfig& config, FeatureMode mode,
-             const std::vector<SideCell>& cells, uint64_t seed);
+  explicit SideFitter(const HoughSegmenterConfig& config);
 
-  // The best supported of the random samples among the cells that are set in `is_free`, filtered
-  // and refitted; nothing when it keeps fewer than N points.
-  std::optional<LineFit> FitLine(const std::vector<char>& is_free);
-  std::optional<CircleFit> FitCircle(const std::vector<char>& is_free);
+  // Begins a component, of which all cells are open. cells must outlive its fits. When max_tests
+  // tests of a cell against a line or circle are spent, FitLine and FitCircle find nothing more.
+  void Assign(FeatureMode mode, const std::vector<SideCell>& cells, uint64_t seed,
+              int64_t max_tests = std::numeric_limits<int64_t>::max());
 
-  // Inliers of a known model among the free cells, filtered and refitted by least squares.
-  std::optional<LineFit> Refit(const LineModel& model, const std::vector<char>& is_free) const;
-  std::optional<CircleFit> Refit(const CircleModel& model, const std::vector<char>& is_free) const;
+  // Begins an iteration.
+  void Restart();
+
+  // The best supported of the random samples among the cells left in this iteration, filtered and
+  // refitted; false when it keeps fewer than N points.
+  bool FitLine(LineFit* fit);
+  bool FitCircle(CircleFit* fit);
+
+  // Takes inliers of a fit, all of which are left, out of the iteration.
+  void Take(const CellSet& inliers);
+
+  // Inliers of a known model among the open cells, filtered and refitted by least squares; false
+  // when it keeps fewer than N points.
+  bool Refit(const LineModel& model, LineFit* fit);
+  bool Refit(const CircleModel& model, CircleFit* fit);
+
+  // Closes open cells. Restart() must follow before more is fitted.
+  void Explain(const CellSet& cells);
+
+  const std::vector<SideCell>& cells() const { return *cells_; }
+  bool is_spent() const { return num_tests_ >= max_tests_; }
+  int64_t num_tests() const { return num_tests_; }  // since Assign()
 
  private:
-  // Indices of two free cells not too far from each other, or nothing.
-  std::optional<std::pair<int, int>> SamplePair(const std::vector<char>& is_free);
-  void Subsample(const std::vector<char>& is_free);
-
-  // The best supported of num_samples models that sample() proposes, or nothing.
-  template <typename Model, typename Sample>
-  std::optional<Model> BestSample(Sample sample) const;
-
-  // The filtered free inliers of a model.
   template <typename Model>
-  Fit<Model> Inliers(const Model& model, const std::vector<char>& is_free,
-                     std::vector<float>* agreements) const;
-  void Filter(LineFit* fit) const;
-  void Filter(CircleFit* fit) const;
+  struct Candidate {
+    Model model;
+    float score = 0;  // [px] support
+  };
 
-  // Inliers, least squares and inliers again; nothing when fewer than N points are left, or none of
+  // Draws num_samples pairs of cells that are left, near each other, for both shapes.
+  void DrawPairs();
+  // The models through pairs whose cells agree with them.
+  template <typename Model>
+  void FindCandidates(std::vector<Candidate<Model>>* candidates);
+  std::optional<LineModel> ModelThrough(size_t a, size_t b, const LineModel*) const;
+  std::optional<CircleModel> ModelThrough(size_t a, size_t b, const CircleModel*) const;
+
+  // The best supported of num_samples samples, refitted.
+  template <typename Model>
+  bool FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* fit);
+
+  // Fills inliers_ with the filtered inliers of a model among the open cells with a weight; false
+  // when they have fewer than N points.
+  template <typename Model>
+  bool FindInliers(const float* weights, Model* model);
+  void Filter(LineModel* line);
+  void Filter(CircleModel* circle);
+  // Whether curvature and radius allow that inliers_ are those of the model, or of one whose
+  // quantities differ by the factor `slack`.
+  bool IsPossible(const LineModel& line, float slack) const;
+  bool IsPossible(const CircleModel& circle, float slack) const;
+
+  // Inliers, least squares and inliers again; false when fewer than N points are left, or those of
   // a model that cannot be.
   template <typename Model>
-  std::optional<Fit<Model>> RefitTo(const Model& model, const std::vector<char>& is_free) const;
-  bool IsPossible(const LineFit& fit) const;
-  bool IsPossible(const CircleFit& fit) const;
+  bool RefitTo(Model model, const float* weights, Fit<Model>* fit);
 
-  const HoughSegmenterConfig& config_;
-  FeatureMode mode_;
-  const std::vector<SideCell>& cells_;
-  CellArrays arrays_;
-  RandomIndex random_;
-  std::vector<int> subsample_;  // cells that samples are scored on
-  CellArrays subsample_arrays_;
-  std::vector<std::vector<int>> buckets_;  // cells of each square of the table
-  std::vector<int> bucket_of_cell_;
-  int num_bucket_columns_ = 0;
+  // The open cells with other weights.
+  CellView OpenCells(const float* weights) const;
+
+  HoughSegmenterConfig config_;
+  float min_cos_;  // of the angle between the normals of an inlier and of its model
+  InlierFilters filters_;
+  FeatureMode mode_ = FeatureMode::kDefault;
+  const std::vector<SideCell>* cells_ = nullptr;
+  RandomIndex random_{0};
+  int64_t max_tests_ = 0;
+  int64_t num_tests_ = 0;
+  CellArrays open_;                  // in random order: each part of it is a random sample
+  std::vector<size_t> place_;        // in open_ of each open cell
+  std::vector<float> left_weights_;  // of the open cells, 0 when taken in this iteration
+  size_t num_left_ = 0;              // cells
+  float num_points_left_ = 0;        // [px]
+  CellArrays inliers_;
+  CellBuckets buckets_;  // of the cells that are left
+  std::vector<float> marks_;
+  std::vector<size_t> order_;
+  std::vector<std::pair<size_t, size_t>> pairs_;  // of cells; empty until they are drawn
+  std::vector<Candidate<LineModel>> lines_;
+  std::vector<Candidate<CircleModel>> circles_;
 };
 
 }  // namespace declutter

@@ -10,6 +10,7 @@ namespace declutter {
 namespace {
 
 constexpr float kEdgeTolerance = 0.015f;  // [m] between a face and the edge of the top face
+constexpr int kMinNear = 10;              // [px] of a top face that begins at a face
 constexpr float kBin = 0.004f;            // [m] of the profile of a top face
 
 }  // namespace
@@ -56,15 +57,17 @@ Rectangle FromFace(const Face& face) {
 Rectangle Around(const TopPatch& patch, const Eigen::Vector2f& axis) {
   Rectangle r;
   r.axis = axis;
-  std::vector<float> a, b;
-  for (const Eigen::Vector2f& p : patch.points) {
-    a.push_back(axis.dot(p));
-    b.push_back(r.perpendicular().dot(p));
+  std::vector<float> a(patch.points.size()), b(patch.points.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    a[i] = axis.dot(patch.points[i]);
+    b[i] = r.perpendicular().dot(patch.points[i]);
   }
-  r.a_min = Quantile(&a, 0.005);
-  r.a_max = Quantile(&a, 0.995);
-  r.b_min = Quantile(&b, 0.005);
-  r.b_max = Quantile(&b, 0.995);
+  const Range a_range = Quantiles(&a, 0.005, 0.995);
+  const Range b_range = Quantiles(&b, 0.005, 0.995);
+  r.a_min = a_range.low;
+  r.a_max = a_range.high;
+  r.b_min = b_range.low;
+  r.b_max = b_range.high;
   r.z_max = patch.height;
   r.z_min = std::max(0.0f, patch.height - kTopOnlyDepth);
   r.component = patch.component;
@@ -77,14 +80,23 @@ bool IsAttached(const Face& face, const TopPatch& patch) {
   if (std::abs(line.z_max - patch.height) > kTopTolerance || line.z_min >= patch.height) {
     return false;
   }
+  Eigen::AlignedBox2f box;  // of the patch, by position along the face and depth behind it
+  for (const Eigen::Vector2f& p : patch.hull) {
+    box.extend(Eigen::Vector2f(line.tangent().dot(p), line.rho - line.n.dot(p)));
+  }
+  if (box.min().x() >= line.s_max || box.max().x() <= line.s_min ||
+      box.min().y() >= 2 * kEdgeTolerance || box.max().y() <= -kEdgeTolerance) {
+    return false;
+  }
   int num_near = 0;
   for (const Eigen::Vector2f& p : patch.points) {
     const float depth = line.rho - line.n.dot(p);
     const float s = line.tangent().dot(p);
     num_near +=
         depth > -kEdgeTolerance && depth < 2 * kEdgeTolerance && s > line.s_min && s < line.s_max;
+    if (num_near == kMinNear) return true;
   }
-  return num_near >= 10;
+  return false;
 }
 
 void SnapToFaces(const std::vector<const Face*>& faces, Rectangle* r) {

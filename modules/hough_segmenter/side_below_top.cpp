@@ -25,28 +25,44 @@ class Footprint {
         centre_(solid.X_CO.translation().head<2>().cast<float>()),
         x_axis_(solid.X_CO.linear().col(0).head<2>().cast<float>()) {}
 
+  // [m] around all points on the side, of which none has a larger sigma.
+  Eigen::AlignedBox2f Box(float max_sigma) const {
+    const Eigen::Vector2f half = Eigen::Vector2f::Constant(reach_ + Tolerance(max_sigma));
+    return {centre_ - half, centre_ + half};
+  }
+
   // True for a point on the side whose normal, as far as it is horizontal, is that of the side.
-  bool IsOnSide(const TablePoint& point) const {
-    const float tolerance = std::max(kMaxDistance, 2.5f * point.sigma);
+  bool IsOnSide(const SurfacePoint& point) const {
+    const float tolerance = Tolerance(point.sigma);
     const Eigen::Vector2f p_T = point.p_T.head<2>() - centre_;
     if (p_T.cwiseAbs().maxCoeff() > reach_ + tolerance) return false;
     const Eigen::Vector2f p = ToO(p_T);
-    const Eigen::Vector2f n = ToO(point.n_T.head<2>()).normalized();
-    if (is_round_) {
-      const float distance = p.norm();
-      return std::abs(distance - half_.x()) < tolerance && n.dot(p) > kMinCos * distance;
-    }
+    const auto looks_along = [&](const Eigen::Vector2f& outward) {
+      const Eigen::Vector2f n = ToO(point.n_T.head<2>());
+      return n.dot(outward) > kMinCos * n.norm() * outward.norm();
+    };
+    if (is_round_) return std::abs(p.norm() - half_.x()) < tolerance && looks_along(p);
     for (int axis = 0; axis < 2; ++axis) {
       if (std::abs(std::abs(p[axis]) - half_[axis]) < tolerance &&
           std::abs(p[1 - axis]) < half_[1 - axis] &&
-          std::copysign(1.0f, p[axis]) * n[axis] > kMinCos) {
+          looks_along(std::copysign(1.0f, p[axis]) * Eigen::Vector2f::Unit(axis))) {
         return true;
       }
     }
     return false;
   }
 
+  // False for a square of the grid, given by its middle in T, that lies well inside.
+  bool MayHaveSide(const Eigen::Vector2f& middle, float max_sigma) const {
+    const Eigen::Vector2f p = ToO(middle - centre_);
+    const float reach = Tolerance(max_sigma) + PointGrid::kHalfDiagonal;
+    return is_round_ ? p.norm() > half_.x() - reach
+                     : std::abs(p.x()) > half_.x() - reach || std::abs(p.y()) > half_.y() - reach;
+  }
+
  private:
+  static float Tolerance(float sigma) { return std::max(kMaxDistance, 2.5f * sigma); }
+
   Eigen::Vector2f ToO(const Eigen::Vector2f& x_T) const {
     return {x_axis_.dot(x_T), x_axis_.x() * x_T.y() - x_axis_.y() * x_T.x()};
   }
@@ -60,22 +76,24 @@ class Footprint {
 
 }  // namespace
 
-void AddSidesBelowTops(const std::vector<TablePoint>& points, std::vector<Hypothesis>* hypotheses) {
-  std::vector<const TablePoint*> side_points;
-  for (const TablePoint& point : points) {
-    if (point.is_side()) side_points.push_back(&point);
-  }
+void AddSidesBelowTops(const PointGrid& sides, std::vector<Hypothesis>* hypotheses) {
   const size_t num = hypotheses->size();
+  std::vector<float> heights;
   for (size_t i = 0; i < num; ++i) {
     if (!IsTopOnly((*hypotheses)[i])) continue;
     Hypothesis taller = (*hypotheses)[i];
     const auto top =
         static_cast<float>(taller.solid.X_CO.translation().z() + 0.5 * taller.solid.height());
     const Footprint footprint(taller.solid);
-    std::vector<float> heights;
-    for (const TablePoint* point : side_points) {
-      if (point->p_T.z() < top && footprint.IsOnSide(*point)) heights.push_back(point->p_T.z());
-    }
+    heights.clear();
+    sides.ForEachIn(
+        footprint.Box(sides.max_sigma()),
+        [&](const Eigen::Vector2f& middle) {
+          return footprint.MayHaveSide(middle, sides.max_sigma());
+        },
+        [&](const SurfacePoint& point) {
+          if (point.p_T.z() < top && footprint.IsOnSide(point)) heights.push_back(point.p_T.z());
+        });
     if (heights.size() < kMinPoints) continue;
     taller.num_inliers += static_cast<int>(heights.size());
     const float bottom = BottomOf(Quantile(&heights, 0.02));

@@ -1,19 +1,30 @@
 #include "modules/hough_segmenter/side_cells.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <unordered_map>
+#include <utility>
 
 namespace declutter {
 namespace {
 
-// Coordinates within +-1 km at 1 mm fit 21 bits each.
-uint64_t CellKey(const Eigen::Vector3f& p_T, float side_m, float height_m) {
-  const auto index = [](float x, float step) {
-    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(x / step)) + (1 << 20)) & 0x1FFFFF;
-  };
-  return index(p_T.x(), side_m) << 42 | index(p_T.y(), side_m) << 21 | index(p_T.z(), height_m);
-}
+// Which cell a point is in. Coordinates within +-1 km at 1 mm fit 21 bits each.
+class CellPlace {
+ public:
+  CellPlace(float side_m, float height_m) : per_step_(1 / side_m, 1 / side_m, 1 / height_m) {}
+
+  uint64_t operator()(const Eigen::Vector3f& p_T) const {
+    const Eigen::Vector3f steps = p_T.cwiseProduct(per_step_);
+    return Index(steps.x()) << 42 | Index(steps.y()) << 21 | Index(steps.z());
+  }
+
+ private:
+  static uint64_t Index(float steps) {
+    constexpr float kHalf = 1 << 20;  // so that what is cut off is no sign
+    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(steps) + kHalf)) & 0x1FFFFF;
+  }
+
+  Eigen::Vector3f per_step_;
+};
 
 void Accumulate(const TablePoint& point, SideCell* cell) {
   cell->p += point.p_T.head<2>();
@@ -26,7 +37,7 @@ void Accumulate(const TablePoint& point, SideCell* cell) {
   cell->weight += 1;
 }
 
-void Finish(SideCell* cell) {
+void Finish(float num_pixels, SideCell* cell) {
   cell->p /= cell->weight;
   cell->n.normalize();
   cell->z /= cell->weight;
@@ -34,26 +45,54 @@ void Finish(SideCell* cell) {
   cell->curvature /= cell->weight;
   cell->r_min /= cell->weight;
   cell->sigma /= cell->weight;
+  cell->weight *= num_pixels;
 }
 
 }  // namespace
 
-std::vector<std::vector<SideCell>> SideCells(const std::vector<TablePoint>& points,
-                                             int num_components, float side_m, float height_m) {
-  std::vector<std::vector<SideCell>> cells(static_cast<size_t>(num_components));
-  std::vector<std::unordered_map<uint64_t, size_t>> index(cells.size());
+SideCells::Slot* SideCells::FindSlot(uint64_t place, int32_t component) {
+  const size_t mask = slots_.size() - 1;
+  const uint64_t key = (place ^ static_cast<uint64_t>(component) << 53) * 0x9E3779B97F4A7C15ull;
+  for (size_t i = static_cast<size_t>(key >> 32);; ++i) {
+    Slot& slot = slots_[i & mask];
+    if (slot.component < 0 || (slot.place == place && slot.component == component)) return &slot;
+  }
+}
+
+void SideCells::Grow() {
+  const std::vector<Slot> before = std::move(slots_);
+  slots_.assign(2 * before.size(), Slot());
+  for (const Slot& slot : before) {
+    if (slot.component >= 0) *FindSlot(slot.place, slot.component) = slot;
+  }
+}
+
+const std::vector<std::vector<SideCell>>& SideCells::Gather(const std::vector<TablePoint>& points,
+                                                            int num_components, float side_m,
+                                                            float height_m, int num_pixels) {
+  cells_.resize(static_cast<size_t>(num_components));
+  for (auto& component : cells_) component.clear();
+  std::fill(slots_.begin(), slots_.end(), Slot());
+  num_used_ = 0;
+  const CellPlace place_of(side_m, height_m);
   for (const TablePoint& point : points) {
     if (!point.is_side()) continue;
-    const auto c = static_cast<size_t>(point.component);
-    const auto [it, is_new] =
-        index[c].try_emplace(CellKey(point.p_T, side_m, height_m), cells[c].size());
-    if (is_new) cells[c].emplace_back();
-    Accumulate(point, &cells[c][it->second]);
+    const uint64_t place = place_of(point.p_T);
+    Slot* slot = FindSlot(place, point.component);
+    auto& component = cells_[static_cast<size_t>(point.component)];
+    if (slot->component < 0) {
+      *slot = {place, point.component, static_cast<uint32_t>(component.size())};
+      component.emplace_back();
+      Accumulate(point, &component.back());
+      if (2 * ++num_used_ > slots_.size()) Grow();
+    } else {
+      Accumulate(point, &component[slot->cell]);
+    }
   }
-  for (auto& component : cells) {
-    for (SideCell& cell : component) Finish(&cell);
+  for (auto& component : cells_) {
+    for (SideCell& cell : component) Finish(static_cast<float>(num_pixels), &cell);
   }
-  return cells;
+  return cells_;
 }
 
 }  // namespace declutter

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "modules/hough_segmenter/table_points.h"
@@ -17,12 +18,32 @@ struct SideCell {
   float curvature = 0;                          // [1] mean
   float r_min = 0;                              // [m] mean
   float sigma = 0;                              // [m] mean
-  float weight = 0;                             // number of points
+  float weight = 0;                             // [px] that its points stand for
 };
 
-// Cells of side_m x side_m x height_m of the side points of each component, in order of the
-// components; points whose normal is not nearly horizontal do not count.
-std::vector<std::vector<SideCell>> SideCells(const std::vector<TablePoint>& points,
-                                             int num_components, float side_m, float height_m);
+// Gathers points in cells, with memory that is used again.
+class SideCells {
+ public:
+  // Cells of side_m x side_m x height_m of the side points of each component, in order of the
+  // components; points whose normal is not nearly horizontal do not count, the others as the pixels
+  // that each stands for. The result is valid until the next call.
+  const std::vector<std::vector<SideCell>>& Gather(const std::vector<TablePoint>& points,
+                                                   int num_components, float side_m, float height_m,
+                                                   int num_pixels = 1);
+
+ private:
+  // Of a hash table of all cells by component and place.
+  struct Slot {
+    uint64_t place = 0;
+    int32_t component = -1;  // -1: empty
+    uint32_t cell = 0;       // of its component
+  };
+  Slot* FindSlot(uint64_t place, int32_t component);
+  void Grow();
+
+  std::vector<std::vector<SideCell>> cells_;
+  std::vector<Slot> slots_ = std::vector<Slot>(4096);  // a power of two
+  size_t num_used_ = 0;
+};
 
 }  // namespace declutter

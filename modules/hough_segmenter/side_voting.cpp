@@ -1,87 +1,67 @@
 #include "modules/hough_segmenter/side_voting.h"
 
-#include <algorithm>
-
-#include "modules/hough_segmenter/parameter_space.h"
-
 namespace declutter {
 namespace {
 
-struct Votes {
-  ParameterSpace<LineModel> lines;
-  ParameterSpace<CircleModel> circles;
-};
-
-void Remove(const std::vector<int>& inliers, std::vector<char>* is_free) {
-  for (int i : inliers) (*is_free)[static_cast<size_t>(i)] = 0;
-}
-
-bool AreFree(const std::vector<int>& inliers, const std::vector<char>& is_free) {
-  return std::all_of(inliers.begin(), inliers.end(),
-                     [&](int i) { return is_free[static_cast<size_t>(i)]; });
-}
-
-// Turns the highest peak of a space into a detection and removes what it explains.
 template <typename Model>
-void TakePeak(const SideFitter& fitter, int component,
-              const typename ParameterSpace<Model>::Peak& peak, ParameterSpace<Model>* space,
-              std::vector<char>* is_free, std::vector<Detection<Model>>* detections) {
-  const auto fit = fitter.Refit(peak.model, *is_free);
-  space->Remove(peak.strongest);
-  if (!fit) return;
-  Remove(fit->inliers, is_free);
-  detections->push_back(MakeDetection(*fit, component, peak.num_votes));
+Detection<Model> MakeDetection(const Fit<Model>& fit, int component, int num_votes) {
+  Detection<Model> detection;
+  detection.model = fit.model;
+  detection.component = component;
+  detection.num_votes = num_votes;
+  detection.num_points = static_cast<int>(fit.num_points);
+  detection.agreement = fit.support / fit.num_points;
+  return detection;
+}
+
+// Turns the highest peak of a space into a detection and closes the cells that it explains.
+template <typename Model>
+void TakePeak(int component, const typename ParameterSpace<Model>::Peak& peak, SideSearch* search,
+              ParameterSpace<Model>* space, Fit<Model>* fit, SideDetections* detections) {
+  space->Remove(peak);
+  if (!search->fitter.Refit(peak.model, fit)) return;
+  detections->Add(*fit, component, peak.num_votes);
+  search->fitter.Explain(fit->inliers);
+  search->line_votes.Explain(search->fitter.cells(), fit->inliers);
+  search->circle_votes.Explain(search->fitter.cells(), fit->inliers);
 }
 
 }  // namespace
 
-SideFits FitSides(SideFitter* fitter, std::vector<char> is_free) {
-  SideFits fits;
-  std::optional<LineFit> line;
-  std::optional<CircleFit> circle;
-  while (true) {
-    // A fit that lost to the other shape stays in the race as long as its inliers do.
-    if (!line || !AreFree(line->inliers, is_free)) line = fitter->FitLine(is_free);
-    if (!circle || !AreFree(circle->inliers, is_free)) circle = fitter->FitCircle(is_free);
-    if (!line && !circle) return fits;
-    if (line && (!circle || line->support >= circle->support)) {
-      Remove(line->inliers, &is_free);
-      fits.lines.push_back(std::move(*line));
-      line.reset();
-    } else {
-      Remove(circle->inliers, &is_free);
-      fits.circles.push_back(std::move(*circle));
-      circle.reset();
-    }
-  }
+void SideDetections::Add(const LineFit& fit, int component, int num_votes) {
+  faces.push_back(MakeDetection(fit, component, num_votes));
 }
 
-void DetectSides(const HoughSegmenterConfig& config, FeatureMode mode,
-                 const std::vector<SideCell>& cells, int component, uint64_t seed,
-                 SideDetections* detections) {
-  SideFitter fitter(config, mode, cells, seed);
-  std::vector<char> is_free(cells.size(), 1);
+void SideDetections::Add(const CircleFit& fit, int component, int num_votes) {
+  arcs.push_back(MakeDetection(fit, component, num_votes));
+}
+
+void DetectSides(int component, SideSearch* search, SideDetections* detections) {
+  struct Caster {
+    void operator()(const LineFit& fit) { search->line_votes.Add(fit); }
+    void operator()(const CircleFit& fit) { search->circle_votes.Add(fit); }
+    SideSearch* search;
+  };
   const auto num_detections = [&] { return detections->faces.size() + detections->arcs.size(); };
   size_t num_before = 0;
   do {
     num_before = num_detections();
-    Votes votes;
-    for (int iteration = 0; iteration < config.num_iterations(); ++iteration) {
-      SideFits fits = FitSides(&fitter, is_free);
-      for (LineFit& line : fits.lines) votes.lines.Add(std::move(line));
-      for (CircleFit& circle : fits.circles) votes.circles.Add(std::move(circle));
+    search->line_votes.Clear();
+    search->circle_votes.Clear();
+    for (int i = 0; i < search->num_iterations && !search->fitter.is_spent(); ++i) {
+      FitSides(search, Caster{search});
     }
+    search->line_votes.Connect();
+    search->circle_votes.Connect();
     while (true) {
-      const auto line = votes.lines.HighestPeak();
-      const auto circle = votes.circles.HighestPeak();
+      const auto line = search->line_votes.HighestPeak();
+      const auto circle = search->circle_votes.HighestPeak();
       if (!line && !circle) break;
       if (line && (!circle || line->density >= circle->density)) {
-        TakePeak(fitter, component, *line, &votes.lines, &is_free, &detections->faces);
+        TakePeak(component, *line, search, &search->line_votes, &search->line, detections);
       } else {
-        TakePeak(fitter, component, *circle, &votes.circles, &is_free, &detections->arcs);
+        TakePeak(component, *circle, search, &search->circle_votes, &search->circle, detections);
       }
-      votes.lines.KeepSupported(cells, is_free);
-      votes.circles.KeepSupported(cells, is_free);
     }
   } while (num_detections() > num_before);
 }

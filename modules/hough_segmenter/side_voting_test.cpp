@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
+#include <set>
 
 #include "modules/hough_segmenter/inlier_filters.h"
 #include "modules/hough_segmenter/parameter_space.h"
@@ -56,10 +58,26 @@ void AddNoise(float sigma, std::vector<SideCell>* cells) {
   for (SideCell& cell : *cells) cell.p += Vector2f(noise(random), noise(random));
 }
 
-std::vector<int> AllOf(const std::vector<SideCell>& cells) {
-  std::vector<int> indices;
-  for (size_t i = 0; i < cells.size(); ++i) indices.push_back(static_cast<int>(i));
+CellArrays AllOf(const std::vector<SideCell>& cells) {
+  CellArrays arrays;
+  arrays.Resize(cells.size());
+  for (size_t i = 0; i < cells.size(); ++i) arrays.Set(i, cells[i], i, 0.004f);
+  return arrays;
+}
+
+std::vector<size_t> IndicesOf(const CellArrays& arrays) {
+  std::vector<size_t> indices;
+  for (size_t i = 0; i < arrays.size(); ++i) indices.push_back(arrays.IndexOf(i));
   return indices;
+}
+
+SideDetections Detect(const std::vector<SideCell>& cells, int component, uint64_t seed,
+                      int64_t max_tests = std::numeric_limits<int64_t>::max()) {
+  SideSearch search{HoughSegmenterConfig()};
+  search.fitter.Assign(FeatureMode::kDefault, cells, seed, max_tests);
+  SideDetections found;
+  DetectSides(component, &search, &found);
+  return found;
 }
 
 TEST(SideVoting, FindsAFaceAndACylinderThatTouch) {
@@ -67,8 +85,7 @@ TEST(SideVoting, FindsAFaceAndACylinderThatTouch) {
   AddFace(-0.10f, 0.05f, 0.7f, &cells);
   AddArc({0.09f, 0.72f}, 0.04f, 0.01f, &cells);
   AddNoise(0.0007f, &cells);
-  SideDetections found;
-  DetectSides(HoughSegmenterConfig(), FeatureMode::kDefault, cells, 3, 1, &found);
+  const SideDetections found = Detect(cells, 3, 1);
   ASSERT_THAT(found.faces, SizeIs(1));
   ASSERT_THAT(found.arcs, SizeIs(1));
   EXPECT_NEAR(found.faces[0].model.n.y(), -1, 0.001);
@@ -85,18 +102,16 @@ TEST(SideVoting, SeedsChangeTheVotesButNotTheModels) {
   AddFace(0.055f, 0.12f, 0.73f, &cells);
   AddArc({-0.15f, 0.72f}, 0.035f, 0.01f, &cells);
   AddNoise(0.001f, &cells);
-  const std::vector<char> is_free(cells.size(), 1);
   std::vector<float> first_votes;
   std::vector<float> radii;
   for (uint64_t seed = 1; seed <= 10; ++seed) {
-    const HoughSegmenterConfig config;
     HoughSegmenterConfig one_sample;
     one_sample.set_num_samples(1);
-    SideFitter fitter(one_sample, FeatureMode::kDefault, cells, seed);
-    const auto vote = fitter.FitLine(is_free);
-    first_votes.push_back(vote ? vote->support : 0);
-    SideDetections found;
-    DetectSides(config, FeatureMode::kDefault, cells, 0, seed, &found);
+    SideFitter fitter(one_sample);
+    fitter.Assign(FeatureMode::kDefault, cells, seed);
+    LineFit vote;
+    first_votes.push_back(fitter.FitLine(&vote) ? vote.support : 0);
+    const SideDetections found = Detect(cells, 0, seed);
     EXPECT_THAT(found.faces, SizeIs(2)) << "seed " << seed;
     ASSERT_THAT(found.arcs, SizeIs(1)) << "seed " << seed;
     radii.push_back(found.arcs[0].model.r);
@@ -112,8 +127,7 @@ TEST(SideVoting, TellsACanFromTheWiderCanBelow) {
   AddArc({0, 0.7f}, 0.047f, 0.01f, &cells);
   AddArc({0.002f, 0.7f}, 0.041f, 0.08f, &cells);
   AddNoise(0.0007f, &cells);
-  SideDetections found;
-  DetectSides(HoughSegmenterConfig(), FeatureMode::kDefault, cells, 0, 1, &found);
+  const SideDetections found = Detect(cells, 0, 1);
   ASSERT_THAT(found.arcs, SizeIs(2));
   const auto [narrow, wide] = std::minmax(found.arcs[0].model.r, found.arcs[1].model.r);
   EXPECT_NEAR(narrow, 0.041, 0.001);
@@ -123,29 +137,70 @@ TEST(SideVoting, TellsACanFromTheWiderCanBelow) {
 TEST(SideVoting, FindsNothingInFewerPointsThanN) {
   std::vector<SideCell> cells;
   AddFace(0, 0.010f, 0.7f, &cells);
-  ASSERT_LT(NumPoints(cells, AllOf(cells)), 100);
+  ASSERT_LT(AllOf(cells).NumPoints(), 100);
+  for (const auto& few : {cells, std::vector<SideCell>()}) {
+    const SideDetections found = Detect(few, 0, 1);
+    EXPECT_THAT(found.faces, IsEmpty());
+    EXPECT_THAT(found.arcs, IsEmpty());
+  }
+}
+
+TEST(SideVoting, FindsTheSameWhateverCameBefore) {
+  std::vector<SideCell> cells;
+  AddArc({0.09f, 0.72f}, 0.04f, 0.01f, &cells);
+  AddNoise(0.0007f, &cells);
+  std::vector<SideCell> others = cells;
+  AddFace(-0.30f, 0.05f, 0.7f, &others);
+  SideSearch search{HoughSegmenterConfig()};
   SideDetections found;
-  DetectSides(HoughSegmenterConfig(), FeatureMode::kDefault, cells, 0, 1, &found);
-  DetectSides(HoughSegmenterConfig(), FeatureMode::kDefault, {}, 0, 1, &found);
+  for (const auto* component : {&others, &cells}) {
+    search.fitter.Assign(FeatureMode::kDefault, *component, 1);
+    found = SideDetections();
+    DetectSides(0, &search, &found);
+  }
+  const SideDetections alone = Detect(cells, 0, 1);
+  ASSERT_THAT(found.arcs, SizeIs(1));
+  ASSERT_THAT(alone.arcs, SizeIs(1));
   EXPECT_THAT(found.faces, IsEmpty());
-  EXPECT_THAT(found.arcs, IsEmpty());
+  EXPECT_EQ(found.arcs[0].model.r, alone.arcs[0].model.r);
+  EXPECT_EQ(found.arcs[0].num_votes, alone.arcs[0].num_votes);
+}
+
+TEST(SideVoting, TakesPeaksFromTheVotesThatItsTestsAllow) {
+  std::vector<SideCell> cells;
+  AddFace(-0.10f, 0.05f, 0.7f, &cells);
+  AddNoise(0.0007f, &cells);
+  SideSearch search{HoughSegmenterConfig()};
+  search.fitter.Assign(FeatureMode::kDefault, cells, 1);
+  SideDetections all;
+  DetectSides(0, &search, &all);
+  const int64_t num_tests = search.fitter.num_tests();
+  EXPECT_FALSE(search.fitter.is_spent());
+  const SideDetections some = Detect(cells, 0, 1, num_tests / 2);
+  ASSERT_THAT(all.faces, SizeIs(1));
+  ASSERT_THAT(some.faces, SizeIs(1));
+  EXPECT_GT(some.faces[0].num_votes, 0);
+  EXPECT_LT(some.faces[0].num_votes, all.faces[0].num_votes);
+  EXPECT_NEAR(some.faces[0].model.rho, all.faces[0].model.rho, 1e-4);
+  EXPECT_THAT(Detect(cells, 0, 1, 0).faces, IsEmpty());
 }
 
 TEST(InlierFilters, KeepsTheHeavierRunOfALineAndRejectsTwoInPaperMode) {
   std::vector<SideCell> cells;
   AddFace(0, 0.05f, 0.7f, &cells);
   AddFace(0.09f, 0.20f, 0.7f, &cells);
-  LineFit fit;
-  fit.model.n = {0, -1};
-  fit.inliers = AllOf(cells);
-  LineFit paper = fit;
-  KeepOneRun(cells, 0.015f, FeatureMode::kDefault, &fit);
-  KeepOneRun(cells, 0.015f, FeatureMode::kPaper, &paper);
+  LineModel line;
+  line.n = {0, -1};
+  CellArrays inliers = AllOf(cells);
+  CellArrays paper = inliers;
+  InlierFilters filters;
+  filters.KeepOneRun(line, 0.015f, FeatureMode::kDefault, &inliers);
+  filters.KeepOneRun(line, 0.015f, FeatureMode::kPaper, &paper);
   std::vector<float> x;
-  for (int i : fit.inliers) x.push_back(cells[static_cast<size_t>(i)].p.x());
+  for (size_t i : IndicesOf(inliers)) x.push_back(cells[i].p.x());
   EXPECT_THAT(x, Each(Ge(0.09f)));
   EXPECT_THAT(x, testing::Not(IsEmpty()));
-  EXPECT_THAT(paper.inliers, IsEmpty());
+  EXPECT_TRUE(paper.empty());
 }
 
 TEST(InlierFilters, DropsArcsOfAnotherHeight) {
@@ -154,14 +209,15 @@ TEST(InlierFilters, DropsArcsOfAnotherHeight) {
   const size_t num_below = cells.size();
   AddArc({0, 0.7f}, 0.04f, 0.20f, &cells);
   cells.resize(num_below + num_below / 2);
-  CircleFit fit;
-  fit.model.c = {0, 0.7f};
-  fit.model.r = 0.04f;
-  fit.inliers = AllOf(cells);
-  KeepOneHeight(cells, 0.015f, &fit);
-  KeepArcs(cells, 0.015f, 2, &fit);
-  EXPECT_THAT(fit.inliers, SizeIs(num_below));
-  EXPECT_NEAR(fit.model.arc, M_PI, 0.2);
+  CircleModel circle;
+  circle.c = {0, 0.7f};
+  circle.r = 0.04f;
+  CellArrays inliers = AllOf(cells);
+  InlierFilters filters;
+  filters.KeepOneHeight(0.015f, &inliers);
+  filters.KeepArcs(0.015f, 2, &circle, &inliers);
+  EXPECT_THAT(IndicesOf(inliers), SizeIs(num_below));
+  EXPECT_NEAR(circle.arc, M_PI, 0.2);
 }
 
 TEST(InlierFilters, PaperModeDividesFlatFromRoundByCurvatureAndRadius) {
@@ -172,26 +228,27 @@ TEST(InlierFilters, PaperModeDividesFlatFromRoundByCurvatureAndRadius) {
   cells[2].curvature = 0.020f;  // round, of this radius
   cells[2].r_min = 0.05f;
   cells[3].curvature = 0.009f;  // flat
-  LineFit line;
-  line.inliers = AllOf(cells);
-  KeepFlat(cells, 0.010f, &line);
-  CircleFit circle;
-  circle.model.r = 0.04f;
-  circle.inliers = AllOf(cells);
-  KeepRound(cells, 0.010f, 0.020f, &circle);
-  EXPECT_THAT(line.inliers, testing::ElementsAre(0, 3));
-  EXPECT_THAT(circle.inliers, testing::ElementsAre(2));
+  CellArrays flat = AllOf(cells);
+  CellArrays round = flat;
+  CircleModel circle;
+  circle.r = 0.04f;
+  InlierFilters filters;
+  filters.KeepFlat(0.010f, &flat);
+  filters.KeepRound(circle, 0.010f, 0.020f, &round);
+  EXPECT_THAT(IndicesOf(flat), testing::ElementsAre(0, 3));
+  EXPECT_THAT(IndicesOf(round), testing::ElementsAre(2));
 }
 
 // Points that a model keeps with all filters and without one of them, in default mode.
 template <typename Model>
 std::pair<float, float> NumKept(const std::vector<SideCell>& cells, const Model& model,
                                 void (HoughSegmenterConfig::*set_filter)(bool)) {
-  const std::vector<char> is_free(cells.size(), 1);
   HoughSegmenterConfig config;
   const auto num_kept = [&] {
-    const auto fit = SideFitter(config, FeatureMode::kDefault, cells, 1).Refit(model, is_free);
-    return fit ? fit->num_points : 0;
+    SideFitter fitter(config);
+    fitter.Assign(FeatureMode::kDefault, cells, 1);
+    Fit<Model> fit;
+    return fitter.Refit(model, &fit) ? fit.num_points : 0;
   };
   const float with = num_kept();
   (config.*set_filter)(false);
@@ -205,12 +262,12 @@ TEST(InlierFilters, OfALineCanBeSwitchedOffOneByOne) {
   std::vector<SideCell> cells;
   AddFace(0, 0.05f, 0.7f, &cells);
   AddFace(0.09f, 0.20f, 0.7f, &cells);
-  const float num_all = NumPoints(cells, AllOf(cells));
+  const float num_all = AllOf(cells).NumPoints();
   const auto runs = NumKept(cells, line, &HoughSegmenterConfig::set_filter_runs);
   EXPECT_THAT(runs, testing::Pair(testing::AllOf(testing::Gt(0), testing::Lt(num_all)), num_all));
   cells.clear();
   AddFace(0, 0.20f, 0.7f, &cells);
-  const float num_face = NumPoints(cells, AllOf(cells));
+  const float num_face = AllOf(cells).NumPoints();
   for (SideCell& cell : cells) cell.n = {1, 0};
   EXPECT_THAT(NumKept(cells, line, &HoughSegmenterConfig::set_filter_normals),
               testing::Pair(0, num_face));
@@ -231,38 +288,101 @@ TEST(InlierFilters, OfACircleCanBeSwitchedOffOneByOne) {
     const float x = std::abs(cell.p.x());
     if (x < 0.02f || x > 0.07f) cells.push_back(cell);
   }
-  const float num_all = NumPoints(cells, AllOf(cells));
+  const float num_all = AllOf(cells).NumPoints();
   EXPECT_THAT(NumKept(cells, circle, &HoughSegmenterConfig::set_filter_arcs),
               testing::Pair(testing::AllOf(testing::Gt(0), testing::Lt(num_all)), num_all));
   cells = half;
   AddArc(circle.c, circle.r, 0.20f, &cells);
-  const float num_both = NumPoints(cells, AllOf(cells));
+  const float num_both = AllOf(cells).NumPoints();
   EXPECT_THAT(NumKept(cells, circle, &HoughSegmenterConfig::set_filter_heights),
               testing::Pair(testing::FloatEq(0.5f * num_both), num_both));
   for (SideCell& cell : half) cell.kappa = 0;
   EXPECT_THAT(NumKept(half, circle, &HoughSegmenterConfig::set_filter_radius),
-              testing::Pair(0, NumPoints(half, AllOf(half))));
+              testing::Pair(0, AllOf(half).NumPoints()));
+}
+
+// A vote for a circle at x, with the cells of a component of 100 from first on as inliers.
+CircleFit Vote(float x, float support, size_t first = 0, size_t num = 0) {
+  CircleFit fit;
+  fit.model.c = {x, 0.7f};
+  fit.model.r = 0.04f;
+  fit.support = support;
+  fit.num_points = static_cast<float>(4 * num);
+  fit.inliers.Clear(100);
+  for (size_t i = first; i < first + num; ++i) fit.inliers.Add(i);
+  return fit;
 }
 
 TEST(ParameterSpace, PeakIsTheDensestPlaceNotTheStrongestVote) {
   ParameterSpace<CircleModel> space;
-  const auto vote = [](float x, float support) {
-    CircleFit fit;
-    fit.model.c = {x, 0.7f};
-    fit.model.r = 0.04f;
-    fit.support = support;
-    return fit;
-  };
-  space.Add(vote(0.100f, 500));
-  for (float x : {0.000f, 0.002f, 0.004f}) space.Add(vote(x, 300));
+  space.Add(Vote(0.100f, 500));
+  for (float x : {0.000f, 0.002f, 0.004f}) space.Add(Vote(x, 300));
+  space.Connect();
   const auto peak = space.HighestPeak();
   ASSERT_TRUE(peak);
   EXPECT_EQ(peak->num_votes, 3);
   EXPECT_NEAR(peak->model.c.x(), 0.002, 1e-5);
   EXPECT_FLOAT_EQ(peak->density, 900);
-  space.Remove(peak->strongest);
+  space.Remove(*peak);
   ASSERT_TRUE(space.HighestPeak());
   EXPECT_EQ(space.HighestPeak()->num_votes, 1);
+  space.Remove(*space.HighestPeak());
+  EXPECT_FALSE(space.HighestPeak());
+}
+
+TEST(ParameterSpace, ForgetsVotesOfWhichMostIsExplained) {
+  const std::vector<SideCell> cells(100, Cell({0, 0}, {0, -1}, 0, 0));
+  ParameterSpace<CircleModel> space;
+  space.Add(Vote(0.000f, 300, 0, 40));
+  space.Add(Vote(0.002f, 300, 30, 40));
+  space.Connect();
+  EXPECT_EQ(space.HighestPeak()->num_votes, 2);
+  CellSet explained;
+  explained.Clear(100);
+  for (size_t i = 0; i < 45; ++i) explained.Add(i);
+  space.Explain(cells, explained);
+  ASSERT_TRUE(space.HighestPeak());
+  EXPECT_EQ(space.HighestPeak()->num_votes, 1);
+  EXPECT_FLOAT_EQ(space.HighestPeak()->model.c.x(), 0.002f);
+  EXPECT_FLOAT_EQ(space.HighestPeak()->density, 300);
+}
+
+TEST(ParameterSpace, JoinsLinesWhoseDirectionsAreOnEitherSideOfAHalfTurn) {
+  ParameterSpace<LineModel> space;
+  for (const float angle : {kPi - 0.02f, -kPi + 0.02f, 0.0f}) {
+    LineFit vote;
+    vote.model.n = {std::cos(angle), std::sin(angle)};
+    vote.model.s_min = -0.05f;
+    vote.model.s_max = 0.05f;
+    vote.support = 100;
+    space.Add(vote);
+  }
+  space.Connect();
+  ASSERT_TRUE(space.HighestPeak());
+  EXPECT_EQ(space.HighestPeak()->num_votes, 2);
+  EXPECT_NEAR(space.HighestPeak()->model.n.x(), -1, 1e-3);
+}
+
+TEST(CellBuckets, DrawsOnlyWhatIsLeftNearby) {
+  std::vector<SideCell> cells;
+  for (int i = 0; i < 60; ++i) {
+    cells.push_back(Cell({0.01f * static_cast<float>(i), 0.7f}, {0, -1}, 0, 0));
+  }
+  CellBuckets buckets;
+  buckets.Assign(cells);
+  for (size_t i = 0; i < 60; i += 2) buckets.Remove(i);
+  RandomIndex random(1);
+  std::set<size_t> drawn;
+  for (int k = 0; k < 500; ++k) drawn.insert(*buckets.DrawNear(31, &random));
+  EXPECT_THAT(drawn, Each(testing::ResultOf([](size_t i) { return i % 2; }, 1u)));
+  EXPECT_THAT(drawn, testing::Contains(29u));
+  EXPECT_GT(*drawn.begin(), 20u);
+  EXPECT_LT(*drawn.rbegin(), 42u);
+  buckets.Keep();
+  for (size_t i = 1; i < 60; i += 2) buckets.Remove(i);
+  EXPECT_FALSE(buckets.DrawNear(31, &random));
+  buckets.Restore();
+  EXPECT_EQ(*buckets.DrawNear(31, &random) % 2, 1u);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "modules/geometry/solid.h"
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
+#include "modules/hough_segmenter/point_grid.h"
 #include "modules/hough_segmenter/side_voting.h"
 #include "modules/hough_segmenter/top_patches.h"
 
@@ -25,13 +26,14 @@ inline constexpr float kTopOnlyDepth = 0.005f;
 // support, it stands there.
 inline float BottomOf(float z_min) { return z_min < 0.020f ? 0.0f : z_min; }
 
-// Measures the extents of faces and arcs again on the points instead of the cells, where normals
-// and curvature near an outline have kept cells out.
-void MeasureExtents(const std::vector<TablePoint>& points, Surfaces* surfaces);
+// Measures the extents of faces and arcs again on the side points instead of the cells, where
+// normals and curvature near an outline have kept cells out.
+void MeasureExtents(const PointGrid& sides, Surfaces* surfaces);
 
 // For each of the hypotheses of which only the top is known (kTopOnlyDepth below it): the same one
-// with its side, down to where points lie on it, when there are any. Appends them. Hypotheses in T.
-void AddSidesBelowTops(const std::vector<TablePoint>& points, std::vector<Hypothesis>* hypotheses);
+// with its side, down to where side points lie on it, when there are any. Appends them. Hypotheses
+// in T.
+void AddSidesBelowTops(const PointGrid& sides, std::vector<Hypothesis>* hypotheses);
 
 // Region growing from front faces and top faces to full boxes (paper, section 4). Hypotheses in T:
 // X_CO holds X_TO. Where nothing is seen below a solid, it ends there and the evidence of its

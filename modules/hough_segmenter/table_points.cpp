@@ -4,28 +4,38 @@
 
 namespace declutter {
 
-std::vector<TablePoint> TablePoints(const Tabletop& tabletop, const FeatureCloud& features,
-                                    const Eigen::Isometry3d& X_TC) {
+void FindTablePoints(const Tabletop& tabletop, const FeatureCloud& features,
+                     const Eigen::Isometry3d& X_TC, std::vector<TablePoint>* points) {
   const Eigen::Isometry3f X_TC_f = X_TC.cast<float>();
-  std::vector<TablePoint> points;
-  points.reserve(features.points.size());
+  const DepthImage& image = tabletop.objects;
+  const auto inverse_fx = static_cast<float>(1 / image.camera.fx);
+  const auto inverse_fy = static_cast<float>(1 / image.camera.fy);
+  const auto cx = static_cast<float>(image.camera.cx);
+  const auto cy = static_cast<float>(image.camera.cy);
+  const auto scale = static_cast<float>(image.depth_scale_m);
+  points->clear();
+  points->reserve(features.points.size());
+  int v = 0;
+  int row = 0;  // the first pixel of v
   for (const FeaturePoint& feature : features.points) {
     if (feature.component < 0 || feature.normal.isZero()) continue;
-    TablePoint point;
-    point.u = feature.pixel % features.width;
-    point.v = feature.pixel / features.width;
-    const Eigen::Vector3f p_C = tabletop.objects.PointAt(point.u, point.v).cast<float>();
-    if (p_C.z() <= 0) continue;
+    for (; feature.pixel >= row + features.width; row += features.width) ++v;
+    const int u = feature.pixel - row;
+    const float z = scale * static_cast<float>(image.CountAt(u, v));
+    if (z <= 0) continue;
+    const Eigen::Vector3f p_C(z * inverse_fx * (static_cast<float>(u) - cx),
+                              z * inverse_fy * (static_cast<float>(v) - cy), z);
+    TablePoint& point = points->emplace_back();
     point.p_T = X_TC_f * p_C;
     point.n_T = X_TC_f.linear() * feature.normal;
+    point.sigma = MeasurementSigma(z);
+    point.component = feature.component;
     point.kappa = feature.kappa;
     point.curvature = feature.curvature;
     point.r_min = feature.r_min;
-    point.sigma = MeasurementSigma(p_C.z());
-    point.component = feature.component;
-    points.push_back(point);
+    point.u = u;
+    point.v = v;
   }
-  return points;
 }
 
 }  // namespace declutter

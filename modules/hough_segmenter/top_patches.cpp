@@ -1,6 +1,7 @@
 #include "modules/hough_segmenter/top_patches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,39 +17,50 @@ namespace {
 constexpr int kRimPixels = 4;          // [px] of the image that normals are blurred over
 constexpr float kMaxRimStep = 0.003f;  // [m] in height between a rim and the face inside
 
-std::vector<Eigen::Vector2f> Hull(const std::vector<Eigen::Vector2f>& points) {
-  std::vector<Eigen::Vector2d> wide;
-  wide.reserve(points.size());
-  for (const Eigen::Vector2f& p : points) wide.push_back(p.cast<double>());
-  std::vector<Eigen::Vector2f> hull;
-  for (const Eigen::Vector2d& p : ConvexHull(std::move(wide))) hull.push_back(p.cast<float>());
-  return hull;
-}
-
-// Normals bend near edges, which keeps the rim of a face out of its patch: takes in pixels around
-// the patches, ring by ring, that are at the height of the nearest one inside.
-void GrowOverRims(const std::vector<uint8_t>& is_point, const std::vector<float>& heights,
-                  int columns, int rows, std::vector<int32_t>* labels) {
-  std::vector<float> height_inside = heights;
-  for (int ring = 0; ring < kRimPixels; ++ring) {
-    std::vector<std::pair<size_t, size_t>> grown;  // pixel, neighbour that it joins
-    for (int v = 1; v + 1 < rows; ++v) {
-      for (int u = 1; u + 1 < columns; ++u) {
-        const auto i = static_cast<size_t>(v * columns + u);
-        if (!is_point[i] || (*labels)[i] >= 0) continue;
-        for (size_t j :
-             {i - 1, i + 1, i - static_cast<size_t>(columns), i + static_cast<size_t>(columns)}) {
-          if ((*labels)[j] < 0 || std::abs(heights[i] - height_inside[j]) > kMaxRimStep) continue;
-          grown.emplace_back(i, j);
-          break;
-        }
+// The points, at least one, that are not inside the octagon of those farthest in eight directions:
+// inner ones are no corners of the hull, and most are.
+std::vector<Eigen::Vector2d> OuterPoints(const std::vector<Eigen::Vector2f>& points) {
+  // Counter-clockwise; those of the second half are the opposites of the first.
+  const std::array<Eigen::Vector2f, 4> directions = {Eigen::Vector2f(1, 0), Eigen::Vector2f(1, 1),
+                                                     Eigen::Vector2f(0, 1), Eigen::Vector2f(-1, 1)};
+  std::array<Eigen::Vector2f, 8> corners;
+  corners.fill(points[0]);
+  std::array<float, 8> farthest;
+  farthest.fill(std::numeric_limits<float>::lowest());
+  for (const Eigen::Vector2f& p : points) {
+    for (size_t k = 0; k < directions.size(); ++k) {
+      const float along = directions[k].dot(p);
+      for (const auto& [corner, distance] : {std::pair(k, along), std::pair(k + 4, -along)}) {
+        if (distance <= farthest[corner]) continue;
+        farthest[corner] = distance;
+        corners[corner] = p;
       }
     }
-    for (const auto& [i, j] : grown) {
-      (*labels)[i] = (*labels)[j];
-      height_inside[i] = height_inside[j];
-    }
   }
+  std::array<Eigen::Vector3f, 8> edges;  // inward normal and offset
+  for (size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector2f along = corners[(k + 1) % corners.size()] - corners[k];
+    const Eigen::Vector2f inward(-along.y(), along.x());
+    edges[k] = {inward.x(), inward.y(), -inward.dot(corners[k])};
+  }
+  constexpr float kMargin = 1e-7f;  // [m^2] above what rounding makes of points on an edge
+  std::vector<Eigen::Vector2d> outer;
+  for (const Eigen::Vector2f& p : points) {
+    float least = std::numeric_limits<float>::max();
+    for (const Eigen::Vector3f& edge : edges) {
+      // An edge between equal corners bounds nothing.
+      const float inside = edge.x() * p.x() + edge.y() * p.y() + edge.z();
+      least = edge.x() == 0 && edge.y() == 0 ? least : std::min(least, inside);
+    }
+    if (least <= kMargin) outer.push_back(p.cast<double>());
+  }
+  return outer;
+}
+
+std::vector<Eigen::Vector2f> Hull(const std::vector<Eigen::Vector2f>& points) {
+  std::vector<Eigen::Vector2f> hull;
+  for (const Eigen::Vector2d& p : ConvexHull(OuterPoints(points))) hull.push_back(p.cast<float>());
+  return hull;
 }
 
 }  // namespace
@@ -76,36 +88,88 @@ Eigen::Vector2f MinimumAreaAxis(const TopPatch& patch) {
   return best;
 }
 
-std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points,
-                                     const Tabletop& tabletop, const Eigen::Isometry3d& X_TC,
-                                     float max_step_m, int min_points) {
-  const int thinning = tabletop.thinning;
-  const int columns = (tabletop.objects.camera.width + thinning - 1) / thinning;
-  const int rows = (tabletop.objects.camera.height + thinning - 1) / thinning;
-  const auto num_pixels = static_cast<size_t>(columns) * static_cast<size_t>(rows);
-  std::vector<uint8_t> mask(num_pixels, 0);
-  std::vector<uint8_t> is_point(num_pixels, 0);
-  std::vector<float> heights(num_pixels, 0);
-  const auto pixel = [&](const TablePoint& point) {
-    return static_cast<size_t>(point.v / thinning * columns + point.u / thinning);
-  };
-  for (const TablePoint& point : points) {
-    mask[pixel(point)] = point.is_top();
-    is_point[pixel(point)] = 1;
-    heights[pixel(point)] = point.p_T.z();
+void TopPatchFinder::DrawPoints(const std::vector<TablePoint>& points, int thinning) {
+  const auto num_pixels = static_cast<size_t>(columns_) * static_cast<size_t>(rows_);
+  if (is_point_.size() != num_pixels) {
+    is_top_.assign(num_pixels, 0);
+    is_point_.assign(num_pixels, 0);
+    heights_.assign(num_pixels, 0);
+    height_inside_.assign(num_pixels, 0);
   }
-  ImageComponents labels = LabelComponents(columns, rows, mask, heights, max_step_m);
-  SplitAtHeights(columns, rows, heights, max_step_m, min_points, &labels);
-  for (int32_t& label : labels.label) {
+  pixels_.clear();
+  for (const TablePoint& point : points) {
+    const auto pixel = static_cast<size_t>(point.v / thinning * columns_ + point.u / thinning);
+    pixels_.push_back(pixel);
+    is_top_[pixel] = point.is_top();
+    is_point_[pixel] = 1;
+    heights_[pixel] = height_inside_[pixel] = point.p_T.z();
+  }
+}
+
+void TopPatchFinder::ErasePoints() {
+  for (const size_t pixel : pixels_) {
+    is_top_[pixel] = is_point_[pixel] = 0;
+    heights_[pixel] = height_inside_[pixel] = 0;
+  }
+}
+
+bool TopPatchFinder::IsAtRim(size_t pixel) const {
+  const int u = static_cast<int>(pixel) % columns_;
+  const int v = static_cast<int>(pixel) / columns_;
+  return u == 0 || v == 0 || u + 1 == columns_ || v + 1 == rows_;
+}
+
+// Normals bend near edges, which keeps the rim of a face out of its patch: takes in pixels around
+// the patches, ring by ring, that are at the height of the nearest one inside.
+void TopPatchFinder::GrowOverRims(std::vector<int32_t>* labels) {
+  const auto row = static_cast<size_t>(columns_);
+  const auto may_join = [&](size_t i) { return is_point_[i] && (*labels)[i] < 0 && !IsAtRim(i); };
+  candidates_.clear();
+  for (const size_t i : pixels_) {
+    if ((*labels)[i] < 0) candidates_.push_back(i);
+  }
+  for (int ring = 0; ring < kRimPixels; ++ring) {
+    grown_.clear();
+    for (const size_t i : candidates_) {
+      if (!may_join(i)) continue;
+      for (const size_t j : {i - 1, i + 1, i - row, i + row}) {
+        if ((*labels)[j] < 0 || std::abs(heights_[i] - height_inside_[j]) > kMaxRimStep) continue;
+        grown_.emplace_back(i, j);
+        break;
+      }
+    }
+    // What did not join now can only join what has just been taken in.
+    candidates_.clear();
+    for (const auto& [i, j] : grown_) {
+      (*labels)[i] = (*labels)[j];
+      height_inside_[i] = height_inside_[j];
+      candidates_.insert(candidates_.end(), {i - 1, i + 1, i - row, i + row});
+    }
+  }
+}
+
+std::vector<TopPatch> TopPatchFinder::Find(const std::vector<TablePoint>& points,
+                                           const Tabletop& tabletop, const Eigen::Isometry3d& X_TC,
+                                           float max_step_m, int min_points) {
+  const int thinning = tabletop.thinning;
+  columns_ = (tabletop.objects.camera.width + thinning - 1) / thinning;
+  rows_ = (tabletop.objects.camera.height + thinning - 1) / thinning;
+  DrawPoints(points, thinning);
+  ImageComponents labels = LabelComponents(columns_, rows_, is_top_, heights_, max_step_m);
+  SplitAtHeights(columns_, rows_, heights_, max_step_m, min_points, &labels);
+  for (const size_t pixel : pixels_) {
+    int32_t& label = labels.label[pixel];
     if (label >= 0 && labels.num_pixels[static_cast<size_t>(label)] < min_points) label = -1;
   }
-  GrowOverRims(is_point, heights, columns, rows, &labels.label);
+  GrowOverRims(&labels.label);
+  ErasePoints();
 
   std::vector<TopPatch> patches(labels.num_pixels.size());
   std::vector<std::vector<float>> patch_heights(patches.size());
-  for (const TablePoint& point : points) {
-    const int32_t label = labels.label[pixel(point)];
+  for (size_t k = 0; k < points.size(); ++k) {
+    const int32_t label = labels.label[pixels_[k]];
     if (label < 0) continue;
+    const TablePoint& point = points[k];
     TopPatch& patch = patches[static_cast<size_t>(label)];
     patch.component = point.component;
     patch.points.push_back(point.p_T.head<2>());
@@ -115,12 +179,12 @@ std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points,
   for (size_t i = 0; i < patches.size(); ++i) {
     if (!patches[i].points.empty()) patches[i].height = Quantile(&patch_heights[i], 0.5);
   }
-  AddFreeEdges(tabletop, X_TC, labels.label, &patches);
+  AddFreeEdges(tabletop, X_TC, labels.label, pixels_, &patches);
   std::vector<TopPatch> found;
-  for (size_t i = 0; i < patches.size(); ++i) {
-    if (patches[i].points.empty()) continue;
-    patches[i].hull = Hull(patches[i].points);
-    if (patches[i].hull.size() >= 3) found.push_back(std::move(patches[i]));
+  for (TopPatch& patch : patches) {
+    if (patch.points.empty()) continue;
+    patch.hull = Hull(patch.points);
+    if (patch.hull.size() >= 3) found.push_back(std::move(patch));
   }
   return found;
 }

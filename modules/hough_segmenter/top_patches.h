@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "modules/geometry/tabletop.h"
@@ -20,12 +22,32 @@ struct TopPatch {
                                            // outline is that of something in front, it does not
 };
 
-// Patches of at least min_points points, in row-major order of their first pixels. Neighbouring
-// pixels whose heights differ by more than max_step_m belong to different patches. points are those
-// of the tabletop; X_TC is the pose of the camera in T.
-std::vector<TopPatch> FindTopPatches(const std::vector<TablePoint>& points,
-                                     const Tabletop& tabletop, const Eigen::Isometry3d& X_TC,
-                                     float max_step_m, int min_points);
+// Finds top patches frame by frame, with memory that is used again.
+class TopPatchFinder {
+ public:
+  // Patches of at least min_points points, in row-major order of their first pixels. Neighbouring
+  // pixels whose heights differ by more than max_step_m belong to different patches. points are
+  // those of the tabletop, in row-major order; X_TC is the pose of the camera in T.
+  std::vector<TopPatch> Find(const std::vector<TablePoint>& points, const Tabletop& tabletop,
+                             const Eigen::Isometry3d& X_TC, float max_step_m, int min_points);
+
+ private:
+  void DrawPoints(const std::vector<TablePoint>& points, int thinning);
+  void ErasePoints();
+  void GrowOverRims(std::vector<int32_t>* labels);
+  bool IsAtRim(size_t pixel) const;
+
+  int columns_ = 0;
+  int rows_ = 0;
+  // Images; outside pixels_ they are 0.
+  std::vector<uint8_t> is_top_;
+  std::vector<uint8_t> is_point_;
+  std::vector<float> heights_;        // [m]
+  std::vector<float> height_inside_;  // [m] of labelled pixels: that of the face inside the rim
+  std::vector<size_t> pixels_;        // of the points
+  std::vector<size_t> candidates_;    // that may join a patch
+  std::vector<std::pair<size_t, size_t>> grown_;  // pixel, neighbour whose patch it joins
+};
 
 // Direction of a side of the smallest rectangle around the hull, a unit vector of the xy plane of
 // T.

@@ -11,11 +11,13 @@ class RansacSegmenterModule {
 
   RansacSegmenterModule(const Config& config, runtime::Bus& bus)
       : segmenter_(config, FitSidesOnce), hypotheses_(bus.Advertise(kHypotheses)) {
-    bus.SubscribeJoined(
-        kTabletop, kFeatures, [this](const tabletop_t& tabletop, const feature_cloud_t& features) {
-          hypotheses_.Publish(
-              codec::Encode(segmenter_.Segment(codec::Decode(tabletop), codec::Decode(features))));
-        });
+    bus.SubscribeJoined(kTabletop, kFeatures,
+                        [this, &bus](const tabletop_t& tabletop, const feature_cloud_t& features) {
+                          hypotheses_.Publish(codec::Encode(segmenter_.Segment(
+                              codec::Decode(tabletop), codec::Decode(features))));
+                          if (!segmenter_.shortfall().empty())
+                            bus.Warn("shortfall", segmenter_.shortfall());
+                        });
   }
 
  private:

@@ -30,14 +30,22 @@ std::vector<SideCell> NoisyArc() {
   return cells;
 }
 
+SideDetections Detect(SideDetector detect, const HoughSegmenterConfig& config,
+                      const std::vector<SideCell>& cells, uint64_t seed) {
+  SideSearch search(config);
+  search.fitter.Assign(FeatureMode::kDefault, cells, seed);
+  SideDetections found;
+  detect(3, &search, &found);
+  return found;
+}
+
 // [m] between the largest and the smallest radius that 20 seeds give.
 float RangeOfRadius(SideDetector detect) {
   HoughSegmenterConfig config;
   config.set_num_samples(2);
   std::vector<float> radii;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    SideDetections found;
-    detect(config, FeatureMode::kDefault, NoisyArc(), 3, seed, &found);
+    const SideDetections found = Detect(detect, config, NoisyArc(), seed);
     for (const Arc& arc : found.arcs) radii.push_back(arc.model.r);
   }
   EXPECT_THAT(radii, testing::SizeIs(testing::Ge(20)));
@@ -46,9 +54,7 @@ float RangeOfRadius(SideDetector detect) {
 }
 
 TEST(SingleShot, TakesEachFitAsADetectionWithOneVote) {
-  HoughSegmenterConfig config;
-  SideDetections found;
-  FitSidesOnce(config, FeatureMode::kDefault, NoisyArc(), 3, 1, &found);
+  const SideDetections found = Detect(FitSidesOnce, HoughSegmenterConfig(), NoisyArc(), 1);
   ASSERT_THAT(found.arcs, testing::SizeIs(1));
   EXPECT_THAT(found.faces, testing::IsEmpty());
   EXPECT_EQ(found.arcs[0].num_votes, 1);
@@ -61,8 +67,7 @@ TEST(SingleShot, DependsOnTheSeedMoreThanVotingDoes) {
 }
 
 TEST(SingleShot, FindsNothingInAnEmptyComponent) {
-  SideDetections found;
-  FitSidesOnce(HoughSegmenterConfig(), FeatureMode::kDefault, {}, 0, 1, &found);
+  const SideDetections found = Detect(FitSidesOnce, HoughSegmenterConfig(), {}, 1);
   EXPECT_THAT(found.faces, testing::IsEmpty());
   EXPECT_THAT(found.arcs, testing::IsEmpty());
 }

@@ -235,8 +235,9 @@ std::vector<std::vector<SidePoint>> SidePoints(const Tabletop& tabletop,
   std::vector<std::vector<SidePoint>> sides(static_cast<size_t>(paper_features.num_components));
   if (tabletop.planes.empty()) return sides;
   std::set<std::tuple<int, int, int>> voxels;
-  for (const TablePoint& point :
-       TablePoints(tabletop, paper_features, TableFrame(tabletop.planes[0].plane))) {
+  std::vector<TablePoint> points;
+  FindTablePoints(tabletop, paper_features, TableFrame(tabletop.planes[0].plane), &points);
+  for (const TablePoint& point : points) {
     if (!point.is_side()) continue;
     if (leaf_m > 0) {
       const Eigen::Vector3i voxel = (point.p_T / static_cast<float>(leaf_m)).cast<int>();
