@@ -23,13 +23,12 @@ struct BoxFace {
 // All that can be seen: never the lower end.
 constexpr BoxFace kFaces[] = {{0, 1}, {0, -1}, {1, 1}, {1, -1}, {2, 1}};
 
-bool IsOn(const SurfacePoint& point, const BoxFace& face) {
+bool IsOn(const FitPoint& point, const BoxFace& face) {
   return (point.surfaces & SurfaceBit(face.axis, face.sign)) != 0;
 }
 
 // Inside the face, `margin` away from its edges.
-bool IsWithin(const SurfacePoint& point, int except_axis, const Eigen::Vector3d& half,
-              double margin) {
+bool IsWithin(const FitPoint& point, int except_axis, const Eigen::Vector3d& half, double margin) {
   for (int axis = 0; axis < 3; ++axis) {
     if (axis != except_axis && std::abs(point.p_O[axis]) > half[axis] - margin) return false;
   }
@@ -39,8 +38,8 @@ bool IsWithin(const SurfacePoint& point, int except_axis, const Eigen::Vector3d&
 // Offsets of the faces that are seen, and the yaw about z of O, by linear least squares.
 class BoxFit {
  public:
-  BoxFit(const SurfacePoints& points, const Eigen::Vector3d& half) {
-    for (const SurfacePoint& point : points) {
+  BoxFit(const FitPoints& points, const Eigen::Vector3d& half) {
+    for (const FitPoint& point : points) {
       for (const BoxFace& face : kFaces) {
         if (IsOn(point, face) && IsWithin(point, face.axis, half, kFitEdgeMargin)) {
           Accumulate(point, face, points.pixel_weight());
@@ -59,7 +58,7 @@ class BoxFit {
     return static_cast<size_t>(2 * face.axis + (face.sign > 0));
   }
 
-  void Accumulate(const SurfacePoint& point, const BoxFace& face, int num_px) {
+  void Accumulate(const FitPoint& point, const BoxFace& face, int num_px) {
     Sums& sums = sums_[Index(face)];
     const double w = Weight(point, point.ray_O[face.axis]);
     // A yaw of the box by delta takes the plane x = o to x + delta * y = o.
@@ -134,14 +133,14 @@ class AreaEnd {
 
 // The end of a box along one axis where its face is not seen: from the adjacent face with the most
 // points.
-std::optional<double> HiddenEnd(const SurfacePoints& points, const BoxFace& hidden,
+std::optional<double> HiddenEnd(const FitPoints& points, const BoxFace& hidden,
                                 const Eigen::Vector3d& half) {
   std::optional<AreaEnd> best;
   for (const BoxFace& face : kFaces) {
     if (face.axis == hidden.axis) continue;
     const int across = 3 - face.axis - hidden.axis;
     AreaEnd end(half[hidden.axis], -half[hidden.axis]);
-    for (const SurfacePoint& point : points) {
+    for (const FitPoint& point : points) {
       if (!IsOn(point, face) || std::abs(point.p_O[across]) > half[across]) continue;
       end.Add(static_cast<float>(hidden.sign) * point.p_O[hidden.axis],
               point.pixel_area / std::abs(point.ray_O[face.axis]), points.pixel_weight());
@@ -153,9 +152,9 @@ std::optional<double> HiddenEnd(const SurfacePoints& points, const BoxFace& hidd
 
 }  // namespace
 
-Solid RefineBox(Solid solid, const Observation& observation, SurfacePoints* buffer) {
+Solid RefineBox(Solid solid, const Observation& observation, FitPoints* buffer) {
   buffer->Find(solid, observation);
-  const SurfacePoints& points = *buffer;
+  const FitPoints& points = *buffer;
   const Eigen::Vector3d half = 0.5 * solid.size;
   const BoxFit fit(points, half);
   Eigen::Vector3d low = -half;

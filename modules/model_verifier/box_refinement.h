@@ -1,13 +1,13 @@
 #pragma once
 
 #include "modules/geometry/solid.h"
+#include "modules/model_verifier/fit_points.h"
 #include "modules/model_verifier/observation.h"
-#include "modules/model_verifier/surface_points.h"
 
 namespace declutter {
 
 // Moves the faces of a box that are seen onto their points, turns it about z of O with them, and
 // moves edges behind which no face is seen to where the area of the face in front of them ends.
-Solid RefineBox(Solid solid, const Observation& observation, SurfacePoints* buffer);
+Solid RefineBox(Solid solid, const Observation& observation, FitPoints* buffer);
 
 }  // namespace declutter

@@ -12,11 +12,11 @@ namespace declutter {
 namespace {
 
 // Gauss-Newton step for centre and radius on the points of the side; false when there are too few.
-bool FitSide(const SurfacePoints& points, Eigen::Vector3d* x) {
+bool FitSide(const FitPoints& points, Eigen::Vector3d* x) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   Eigen::Vector3d g = Eigen::Vector3d::Zero();
   int num = 0;
-  for (const SurfacePoint& point : points) {
+  for (const FitPoint& point : points) {
     if ((point.surfaces & kCylinderSideBit) == 0) continue;
     const Eigen::Vector2d q = Eigen::Vector2d(point.p_O[0], point.p_O[1]) - x->head<2>();
     const double distance = q.norm();
@@ -40,11 +40,11 @@ bool FitSide(const SurfacePoints& points, Eigen::Vector3d* x) {
 }
 
 // Mean height of the disc inside the rim; nothing for an open cylinder.
-std::optional<double> TopOfDisc(const SurfacePoints& points, const Eigen::Vector3d& x) {
+std::optional<double> TopOfDisc(const FitPoints& points, const Eigen::Vector3d& x) {
   double sum = 0;
   double weight = 0;
   int num = 0;
-  for (const SurfacePoint& point : points) {
+  for (const FitPoint& point : points) {
     if ((point.surfaces & SurfaceBit(2, 1)) == 0) continue;
     const Eigen::Vector2d p(point.p_O[0], point.p_O[1]);
     if ((p - x.head<2>()).norm() > x.z() - kFitEdgeMargin) continue;
@@ -59,9 +59,9 @@ std::optional<double> TopOfDisc(const SurfacePoints& points, const Eigen::Vector
 
 }  // namespace
 
-Solid RefineCylinder(Solid solid, const Observation& observation, SurfacePoints* buffer) {
+Solid RefineCylinder(Solid solid, const Observation& observation, FitPoints* buffer) {
   buffer->Find(solid, observation);
-  const SurfacePoints& points = *buffer;
+  const FitPoints& points = *buffer;
   const double half_height = 0.5 * solid.height();
   Eigen::Vector3d x(0, 0, solid.radius());  // centre, radius
   for (int iteration = 0; iteration < 4; ++iteration) {

@@ -47,7 +47,7 @@ ObjectList Verify(const RenderedScene& scene, const std::vector<Hypothesis>& hyp
 Solid RefineOn(const RenderedScene& scene, const Solid& solid) {
   ObservedImage observed;
   observed.Set(scene.depth, scene.table);
-  SurfacePoints buffer;
+  FitPoints buffer;
   return Refine(solid, observed.every_pixel(), &buffer);
 }
 

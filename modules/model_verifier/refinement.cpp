@@ -7,7 +7,7 @@
 
 namespace declutter {
 
-Solid Refine(const Solid& solid, const Observation& observation, SurfacePoints* buffer) {
+Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buffer) {
   return solid.shape == Shape::kBox ? RefineBox(solid, observation, buffer)
                                     : RefineCylinder(solid, observation, buffer);
 }

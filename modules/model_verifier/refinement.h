@@ -11,7 +11,7 @@ namespace declutter {
 // face is not seen moves to where the area of the face in front of it ends, so that it is not
 // biased by the pixels a percentile would cut off. Parameters without enough points keep their
 // value.
-Solid Refine(const Solid& solid, const Observation& observation, SurfacePoints* buffer);
+Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buffer);
 
 // Refines a solid on one observation where that does not lose what speaks for it on another: with
 // few points, or little of a cylinder's arc, a fit can go astray. evidence is what was observed of

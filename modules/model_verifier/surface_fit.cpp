@@ -5,7 +5,7 @@
 
 namespace declutter {
 
-double Weight(const SurfacePoint& point, double cosine) {
+double Weight(const FitPoint& point, double cosine) {
   const double sigma = point.sigma * std::max(std::abs(cosine), 0.5);
   return 1 / (sigma * sigma);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "modules/model_verifier/fit_points.h"
 #include "modules/model_verifier/ray_casting.h"
-#include "modules/model_verifier/surface_points.h"
 
 namespace declutter {
 
@@ -13,12 +13,12 @@ inline constexpr int kMinFitPoints = 60;    // [px] that move a face
 
 // Room for fits, used again by the next one.
 struct FitBuffers {
-  SurfacePoints points;
+  FitPoints points;
   RayEvidence evidence;
 };
 
 // 1 / variance of the distance to a surface whose normal has this cosine with the ray. Half the
 // sensor's noise does not average out at grazing rays, which bounds the weight.
-double Weight(const SurfacePoint& point, double cosine);
+double Weight(const FitPoint& point, double cosine);
 
 }  // namespace declutter

@@ -10,7 +10,7 @@
 namespace declutter {
 
 // A measurement on a surface of a solid, in its frame O.
-struct SurfacePoint {
+struct FitPoint {
   float p_O[3];       // [m]
   float n_O[3];       // measured unit normal, zero: unknown
   float ray_O[3];     // unit direction from the camera to the point
@@ -25,7 +25,7 @@ constexpr uint32_t SurfaceBit(int axis, int sign) { return 1u << (2 * axis + (si
 inline constexpr uint32_t kCylinderSideBit = SurfaceBit(0, 1);
 
 // What a point on a surface is.
-struct SurfaceLimits {
+struct FitLimits {
   float margin_m = 0;             // around the solid that points are looked for
   float sigma_per_square = 0;     // [1/m] of a measurement, over its squared depth
   float min_tolerance_m = 0;      // a point is nearer to its surface than this,
@@ -39,7 +39,7 @@ struct SurfaceLimits {
 // Appends the points of a window that lie on a surface of the solid, except its lower end: a face
 // of a box, the top of a cylinder, or, whatever their distance from the axis, between the ends of
 // one. Returns how many; `points` has room for all pixels of the window.
-size_t FindSurfacePoints(const RaySolid& solid, const RayWindow& window,
-                         const SurfaceLimits& limits, SurfacePoint* points);
+size_t FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
+                     FitPoint* points);
 
 }  // namespace declutter

@@ -1,7 +1,7 @@
-#include "modules/model_verifier/surface_kernels.h"
+#include "modules/model_verifier/fit_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "modules/model_verifier/surface_kernels.cpp"
+#define HWY_TARGET_INCLUDE "modules/model_verifier/fit_kernels.cpp"
 #include <hwy/foreach_target.h>  // compiles the rest of this file once for each target
 #include <hwy/highway.h>
 
@@ -20,7 +20,7 @@ struct NearPoints {
 
 // Bits of the points that lie on one face.
 HWY_INLINE hn::Vec<Ints> BitsOfFace(const NearPoints& points, const RaySolid& solid,
-                                    const SurfaceLimits& limits, const Vector& tolerance, int axis,
+                                    const FitLimits& limits, const Vector& tolerance, int axis,
                                     int sign) {
   const Ints i32;
   const auto along = [&](const Vector3& v) {
@@ -37,7 +37,7 @@ HWY_INLINE hn::Vec<Ints> BitsOfFace(const NearPoints& points, const RaySolid& so
 }
 
 HWY_INLINE hn::Vec<Ints> BitsOf(const NearPoints& points, const RaySolid& solid,
-                                const SurfaceLimits& limits) {
+                                const FitLimits& limits) {
   const Ints i32;
   const auto tolerance = hn::Max(Constant(limits.min_tolerance_m),
                                  hn::Mul(Constant(limits.tolerance_in_sigmas), points.sigma));
@@ -56,7 +56,7 @@ HWY_INLINE hn::Vec<Ints> BitsOf(const NearPoints& points, const RaySolid& solid,
 }
 
 // Appends the points that have bits.
-HWY_INLINE size_t Store(const NearPoints& points, const hn::Vec<Ints>& bits, SurfacePoint* stored) {
+HWY_INLINE size_t Store(const NearPoints& points, const hn::Vec<Ints>& bits, FitPoint* stored) {
   constexpr size_t kMembers = 11;
   const Floats f;
   const Ints i32;
@@ -81,7 +81,7 @@ HWY_INLINE size_t Store(const NearPoints& points, const hn::Vec<Ints>& bits, Sur
 }
 
 HWY_INLINE size_t FindInPixels(const RaySolid& solid, const RayWindow& window,
-                               const SurfaceLimits& limits, int u, int v, SurfacePoint* stored) {
+                               const FitLimits& limits, int u, int v, FitPoint* stored) {
   const Floats f;
   const Pixels pixels = PixelsAt(window, u, v);
   if (hn::AllFalse(f, pixels.is_measured)) return 0;
@@ -109,8 +109,8 @@ HWY_INLINE size_t FindInPixels(const RaySolid& solid, const RayWindow& window,
   return Store(points, hn::IfThenElseZero(hn::RebindMask(Ints(), is_near), bits), stored);
 }
 
-size_t FindSurfacePoints(const RaySolid& solid, const RayWindow& window,
-                         const SurfaceLimits& limits, SurfacePoint* points) {
+size_t FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
+                     FitPoint* points) {
   size_t num = 0;
   for (int v = window.v_begin; v < window.v_end; ++v) {
     for (int u = window.u_begin; u < window.u_end; u += static_cast<int>(hn::Lanes(Floats()))) {
@@ -128,13 +128,13 @@ HWY_AFTER_NAMESPACE();
 namespace declutter {
 namespace {
 
-HWY_EXPORT(FindSurfacePoints);
+HWY_EXPORT(FindFitPoints);
 
 }  // namespace
 
-size_t FindSurfacePoints(const RaySolid& solid, const RayWindow& window,
-                         const SurfaceLimits& limits, SurfacePoint* points) {
-  return HWY_DYNAMIC_DISPATCH(FindSurfacePoints)(solid, window, limits, points);
+size_t FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
+                     FitPoint* points) {
+  return HWY_DYNAMIC_DISPATCH(FindFitPoints)(solid, window, limits, points);
 }
 
 }  // namespace declutter

@@ -1,4 +1,4 @@
-#include "modules/model_verifier/surface_points.h"
+#include "modules/model_verifier/fit_points.h"
 
 #include <algorithm>
 
@@ -9,8 +9,8 @@
 namespace declutter {
 namespace {
 
-SurfaceLimits LimitsFor(const PixelGrid& grid, const PinholeCamera& camera) {
-  SurfaceLimits limits;
+FitLimits LimitsFor(const PixelGrid& grid, const PinholeCamera& camera) {
+  FitLimits limits;
   limits.margin_m = 0.030f;
   limits.sigma_per_square = static_cast<float>(kSigmaPerSquaredDepth);
   limits.min_tolerance_m = 0.005f;
@@ -24,13 +24,13 @@ SurfaceLimits LimitsFor(const PixelGrid& grid, const PinholeCamera& camera) {
 
 }  // namespace
 
-void SurfacePoints::Find(const Solid& solid, const Observation& observation) {
-  const SurfaceLimits limits = LimitsFor(observation.grid, observation.image.camera);
+void FitPoints::Find(const Solid& solid, const Observation& observation) {
+  const FitLimits limits = LimitsFor(observation.grid, observation.image.camera);
   const RayWindow window = WindowOf(solid, limits.margin_m, observation);
   const auto room = static_cast<size_t>(window.u_end - window.u_begin) *
                     static_cast<size_t>(window.v_end - window.v_begin);
   points_.resize(std::max(points_.size(), room));
-  num_ = FindSurfacePoints(AsRaySolid(solid, observation.support), window, limits, points_.data());
+  num_ = FindFitPoints(AsRaySolid(solid, observation.support), window, limits, points_.data());
   pixel_weight_ = observation.grid.pixel_weight();
 }
 
