@@ -20,6 +20,7 @@ Face FaceBetween(float z_min, float z_max) {
 TopPatch PatchAt(float height) {
   TopPatch patch;
   patch.height = height;
+  patch.hull = {{0, 0}, {0.095f, 0}, {0.095f, 0.095f}, {0, 0.095f}};
   for (int i = 0; i < 20; ++i) {
     for (int j = 0; j < 20; ++j) {
       patch.points.emplace_back(0.005f * static_cast<float>(i), 0.005f * static_cast<float>(j));
