@@ -172,8 +172,8 @@ void Isolate() {
   BringLoopbackUp();
 }
 
-void EnsureMulticast(const std::string& url) {
-  if (CarriesMessages(url)) return;
+bool EnsureMulticast(const std::string& url) {
+  if (CarriesMessages(url)) return false;
   try {
     Isolate();
   } catch (const std::runtime_error& error) {
@@ -183,6 +183,7 @@ void EnsureMulticast(const std::string& url) {
                              "); as root: ip link set lo up; ip route add 239.0.0.0/8 dev lo");
   }
   if (!CarriesMessages(url)) throw std::runtime_error(url + " carries no messages of 150 KB");
+  return true;
 }
 
 }  // namespace declutter::launcher

@@ -15,8 +15,9 @@ std::string WithReceiveBuffer(const std::string& url);
 // Proves with a message of 150 KB, more than the largest of ours needs, that the url carries
 // messages. Where it does not (no multicast route, or fragments are lost) moves this process into
 // a network of its own, which holds nothing but the loopback, and proves it there; what we start
-// later inherits it. Needs a process of one thread. Throws std::runtime_error with what was tried.
-void EnsureMulticast(const std::string& url);
+// later inherits it; true when it has. Needs a process of one thread. Throws std::runtime_error
+// with what was tried.
+bool EnsureMulticast(const std::string& url);
 
 // True when a message of 150 KB arrives over url.
 bool CarriesMessages(const std::string& url);

@@ -32,6 +32,15 @@ struct ResolvedGraph {
     for (const ResolvedModule& module : modules) text += module.text;
     return text;
   }
+
+  // A line for each program: its path and version.
+  std::string Versions() const {
+    std::string text;
+    for (const ResolvedModule& resolved : modules) {
+      text += resolved.module.program() + " " + resolved.version + "\n";
+    }
+    return text;
+  }
 };
 
 }  // namespace declutter::launcher

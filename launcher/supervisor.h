@@ -14,7 +14,8 @@ namespace declutter::launcher {
 // A process as the supervisor sees it.
 struct Node {
   std::string name;
-  std::vector<std::string> downstream;  // consumers: ready before this starts, stopped after it
+  std::vector<std::string> downstream;  // consumers and the like: ready before this starts,
+                                        // stopped after it
   bool is_source = false;               // may end by itself: 0 or 1 is the end of its input
   double start_limit_s = 20.0;          // from start to ready
   double grace_period_s = 5.0;          // from terminate to kill

@@ -55,7 +55,8 @@ void CheckInput(const WiredModule& module, const Port& input, const Publications
                                        " publishes " + publication.port->type});
 }
 
-// The modules on a cycle, in the direction of the messages, beginning and ending with the same.
+// The modules on a cycle, each before those that must be ready first, beginning and ending with the
+// same.
 std::optional<std::vector<size_t>> FindCycle(const std::vector<WiredModule>& modules, size_t index,
                                              std::vector<size_t>* path,
                                              std::vector<bool>* is_done) {
@@ -67,7 +68,7 @@ std::optional<std::vector<size_t>> FindCycle(const std::vector<WiredModule>& mod
   }
   if ((*is_done)[index]) return std::nullopt;
   path->push_back(index);
-  for (const size_t next : Downstream(modules, index)) {
+  for (const size_t next : Predecessors(modules, index)) {
     if (auto cycle = FindCycle(modules, next, path, is_done)) return cycle;
   }
   path->pop_back();
@@ -119,6 +120,17 @@ std::vector<size_t> Downstream(const std::vector<WiredModule>& modules, size_t i
     if (consumes) downstream.push_back(i);
   }
   return downstream;
+}
+
+std::vector<size_t> Predecessors(const std::vector<WiredModule>& modules, size_t index) {
+  std::vector<size_t> predecessors = Downstream(modules, index);
+  const std::vector<std::string>& after = modules[index].after;
+  for (size_t i = 0; i < modules.size(); ++i) {
+    const bool is_named = std::count(after.begin(), after.end(), modules[i].name) != 0;
+    const bool is_new = std::count(predecessors.begin(), predecessors.end(), i) == 0;
+    if (is_named && is_new) predecessors.push_back(i);
+  }
+  return predecessors;
 }
 
 bool IsSource(const WiredModule& module) {

@@ -56,6 +56,22 @@ TEST(WiringTest, FindsAChannelWithTwoTypes) {
                           "publishes depth_frame_t"));
 }
 
+TEST(WiringTest, StartsAModuleAfterThoseThatItSendsToAndThoseThatTheGraphNames) {
+  const std::vector<WiredModule> modules = {{"source", "g:1:1", {}, {kDepth}},
+                                            {"filter", "g:2:1", {kDepth}, {}, {"viewer"}},
+                                            {"viewer", "g:3:1", {kDepth}, {}}};
+  EXPECT_THAT(CheckWiring(modules), IsEmpty());
+  EXPECT_THAT(Predecessors(modules, 0), ElementsAre(1, 2));
+  EXPECT_THAT(Predecessors(modules, 1), ElementsAre(2));
+  EXPECT_THAT(Downstream(modules, 1), IsEmpty());
+}
+
+TEST(WiringTest, FindsACycleOfModulesThatWaitForEachOther) {
+  EXPECT_THAT(Texts(CheckWiring({{"source", "g:1:1", {}, {kDepth}},
+                                 {"filter", "g:2:1", {kDepth}, {}, {"source"}}})),
+              ElementsAre("g:1:1: a cycle: source -> filter -> source"));
+}
+
 TEST(WiringTest, FindsACycle) {
   const Port there{"THERE", "tabletop_t"}, back{"BACK", "tabletop_t"};
   EXPECT_THAT(Texts(CheckWiring({{"source", "g:1:1", {}, {kDepth}},

@@ -43,6 +43,9 @@ class Publisher {
 // The constructor of a module subscribes and advertises; it must not touch the outside world,
 // because --describe constructs the module too. All handlers run on one thread, one at a time.
 //
+// A module subscribes in the order in which a frame's messages come: what its last subscription
+// delivers is the end of the frame, as the status counts it.
+//
 // What a handler throws as std::runtime_error counts its frame as rejected; ConfigError ends the
 // process with 2; anything else (std::logic_error: our own bug) ends it with 1.
 class Bus {

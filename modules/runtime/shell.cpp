@@ -22,8 +22,8 @@ constexpr std::size_t kMaxKeptParts = 64;
 // A lossless source keeps one frame in flight; this is for publishers that do not.
 constexpr std::size_t kMaxWaiting = 1024;
 
-double MillisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+double Milliseconds() {
+  return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count();
 }
 
 std::int64_t WallClockUtime() {
@@ -73,7 +73,7 @@ void Shell::Publish(const std::string& channel, const Bytes& message) {
     return;
   }
   if (sink_) sink_(channel, message);
-  health_.Published(UtimeOf(message.data()));
+  health_.Published(UtimeOf(message.data()), Milliseconds());
 }
 
 void Shell::Warn(const std::string& cause, const std::string& text) {
@@ -122,6 +122,7 @@ void Shell::Accept(std::size_t index, std::size_t port, const std::uint8_t* data
   Subscription& subscription = subscriptions_[index];
   subscription.layouts[port]->Locate(data, size);
   const std::int64_t utime = UtimeOf(data);
+  health_.Arrived(utime, Milliseconds());
   Part part = std::make_shared<const Bytes>(data, data + size);
   if (subscription.ports.size() == 1) {
     if (!inbox_.Put({index, utime, {std::move(part)}})) Skip(1);
@@ -138,16 +139,23 @@ void Shell::Accept(std::size_t index, std::size_t port, const std::uint8_t* data
 void Shell::Handle(const Delivery& delivery) {
   const Subscription& subscription = subscriptions_[delivery.subscription];
   health_.Took();
-  const Clock::time_point start = Clock::now();
+  const double start_ms = Milliseconds();
   try {
     subscription.handler(delivery.parts);
-    health_.Handled(delivery.utime, MillisecondsSince(start));
+    const double now_ms = Milliseconds();
+    health_.Handled(delivery.utime, now_ms - start_ms);
+    if (delivery.subscription + 1 == subscriptions_.size()) EndFrame(delivery.utime, now_ms);
   } catch (const ConfigError&) {
     throw;
   } catch (const std::runtime_error& error) {
     Reject(subscription.ports.back().channel, error.what());
   }
   health_.Done();
+}
+
+void Shell::EndFrame(std::int64_t utime, double now_ms) {
+  health_.Ended(utime, now_ms);
+  if (outputs_.empty()) health_.GaveOut(utime);
 }
 
 void Shell::Start() {

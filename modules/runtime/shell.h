@@ -99,6 +99,7 @@ class Shell {
   void Accept(std::size_t subscription, std::size_t port, const std::uint8_t* data,
               std::size_t size);
   void Handle(const Delivery& delivery);
+  void EndFrame(std::int64_t utime, double now_ms);
   void Skip(std::int64_t num_frames);
   bool PollOnce(std::chrono::steady_clock::time_point* next);
 

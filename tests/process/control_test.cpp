@@ -44,6 +44,22 @@ class ControlTest : public testing::Test {
                                       : table.substr(begin, table.find('\n', begin + 1) - begin);
   }
 
+  // A number from the table; 0 where there is none yet.
+  double Column(const std::string& process, const std::string& name) const {
+    const std::string table = Ask({"status"}).out;
+    std::istringstream lines(table);
+    std::vector<std::string> head;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      const std::vector<std::string> row{std::istream_iterator<std::string>(words), {}};
+      if (head.empty()) head = row;
+      if (row.empty() || row[0] != process) continue;
+      const auto column = std::find(head.begin(), head.end(), name) - head.begin();
+      return std::atof(row.at(static_cast<size_t>(column)).c_str());
+    }
+    return 0;
+  }
+
   Outcome End() {
     launcher_->Signal(SIGTERM);
     const Outcome outcome = launcher_->Wait();
@@ -79,18 +95,35 @@ TEST_F(ControlTest, ShowsHowEachProcessDoes) {
   EXPECT_THAT(Ask({"status"}).out, ContainsRegex("^process +state +pid +restarts"));
   EXPECT_THAT(Row("filter"), ContainsRegex("filter +running +[1-9][0-9]* +0 +0:00:"));
   EXPECT_THAT(Row("lcm-logger"), HasSubstr("running"));
+  // A camera of 50 Hz; it knows how long the whole graph takes, the filter only how long it does.
   EXPECT_TRUE(Eventually([this] {
-    std::istringstream words(Row("filter"));
-    const std::vector<std::string> columns{std::istream_iterator<std::string>(words), {}};
-    return columns.size() == 14 && std::stod(columns[11]) > 25 && std::stod(columns[11]) < 75;
-  })) << Row("filter");
+    const double source_ms = Column("source", "latency"), filter_ms = Column("filter", "latency");
+    return Column("filter", "Hz") > 25 && Column("filter", "Hz") < 75 && filter_ms > 0 &&
+           filter_ms < source_ms;
+  })) << Ask({"status"}).out;
+  EXPECT_THAT(Ask({"status"}).out, AllOf(HasSubstr("\nudpm://239.255.76.67:"),
+                                         HasSubstr(", logs in " + folder_.Path("logs/20"))));
   End();
+}
+
+TEST_F(ControlTest, ShowsTheTableAgainEverySecondUntilTheGraphEnds) {
+  Run("", "");
+  Launched watch({LAUNCHER, "status", "--watch", "--run", folder_.Path("logs/latest")}, asking_);
+  const auto num_tables = [this] {
+    const std::string text = ReadFile(asking_.Path("stdout"));
+    int num = 0;
+    for (size_t at = 0; (at = text.find("process ", at)) != std::string::npos; ++at) ++num;
+    return num;
+  };
+  EXPECT_TRUE(Eventually([&] { return num_tables() >= 2; }));
+  End();
+  EXPECT_EQ(watch.Wait().code, 0);
 }
 
 TEST_F(ControlTest, StopsAndStartsAModuleWhileTheRestRuns) {
   Run("", "");
   ASSERT_EQ(Ask({"stop", "filter"}).code, 0);
-  EXPECT_THAT(Row("filter"), ContainsRegex("filter +stopped +0 "));
+  EXPECT_THAT(Row("filter"), ContainsRegex("filter +stopped +- "));
   EXPECT_THAT(ModulesOf("fake_filter"), IsEmpty());
   ASSERT_EQ(Ask({"start", "filter"}).code, 0);
   EXPECT_THAT(Row("filter"), ContainsRegex("filter +running +[1-9][0-9]* +1 "));
@@ -174,13 +207,36 @@ TEST_F(ControlTest, RefusesToSwapInWhatDoesNotFit) {
   End();
 }
 
+TEST_F(ControlTest, SwapsInAProgramWithParametersOfItsOwn) {
+  Run("", FilterConfig("at_frame: 50"));
+  ASSERT_TRUE(HasObjects(20));
+  const std::string other =
+      folder_.Write("other_filter", "#!/bin/sh\n[ \"$1\" = --describe ] || exec " +
+                                        Fake("fake_filter") + " \"$@\"\n" + Fake("fake_filter") +
+                                        " --describe | sed s/FakeFilterConfig/OtherConfig/g\n");
+  std::filesystem::permissions(other, std::filesystem::perms::owner_all);
+  const Outcome outcome = Ask({"swap", "filter", other, "--set", "filter.at_frame=51"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err << ReadFile(folder_.Path("stderr"));
+  EXPECT_THAT(ReadFile(folder_.Path("logs/latest/graph.textproto")), HasSubstr("OtherConfig"));
+  EXPECT_THAT(ReadFile(folder_.Path("logs/latest/versions.txt")), HasSubstr(other + " 0."));
+  // The log tells what made it before and what after.
+  ASSERT_TRUE(Eventually([this] {
+    const auto infos = MessagesOf("RUN_INFO", log_);
+    return infos.size() >= 2 && infos.back().find("OtherConfig") != std::string::npos &&
+           infos.front().find("OtherConfig") == std::string::npos;
+  }));
+  End();
+}
+
 TEST_F(ControlTest, PrintsWhatAModuleHasSaid) {
   Run("",
       FilterConfig("mishap: \"gets_stuck\" at_frame: 3") + " grace_period_s: 0.2 required: false");
   ASSERT_TRUE(Eventually([this] { return Ask({"logs", "filter"}).out == "filter: stuck\n"; }));
   const Outcome unknown = Ask({"logs", "fliter"});
-  EXPECT_EQ(unknown.code, 1);
-  EXPECT_THAT(unknown.err, HasSubstr("fliter.log: there is no such log"));
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("nothing named 'fliter' has run there; did you mean "
+                                     "'filter'?"));
+  EXPECT_THAT(Ask({"logs", "launcher"}).out, HasSubstr(", logs in "));
   Launched follower({LAUNCHER, "logs", "filter", "-f", "--run", folder_.Path("logs/latest")},
                     asking_);
   End();
