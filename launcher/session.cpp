@@ -160,6 +160,7 @@ void Session::Take(ControlSocket::Id id, const ControlRequest& request) {
       return refuse(name + " is no module that can be swapped");
     }
   }
+  links_.log->Say("asked to " + request.verb() + " " + name);
   orders_.Add(id, verb->second, name, supervisor_);
   Decide(Asked{verb->second, name});
 }
