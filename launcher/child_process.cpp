@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "launcher/orphan_guard.h"
+
 namespace declutter::launcher {
 namespace {
 
@@ -80,6 +82,7 @@ void Limit(const LaunchPlan& plan) {
   // The parent may have died before the line above: then nobody would end us.
   if (getppid() != parent) _exit(kExecFailed);
   setpgid(0, 0);
+  OrphanGuard::Enter(plan.guard_fd, getpid());
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -104,7 +107,8 @@ int ExecFault(int fd) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const LaunchPlan& plan) : log_(plan.log_path, kMaxLog) {
+ChildProcess::ChildProcess(const LaunchPlan& plan)
+    : log_(plan.log_path, kMaxLog), guard_fd_(plan.guard_fd) {
   const std::vector<char*> argv = Pointers(plan.command);
   const std::vector<std::string> environment = EnvironmentWith(plan.env);
   const std::vector<char*> env = Pointers(environment);
@@ -124,17 +128,27 @@ ChildProcess::ChildProcess(const LaunchPlan& plan) : log_(plan.log_path, kMaxLog
   const int fault = pid_ < 0 ? errno : ExecFault(fault_read_end);
   close(fault_read_end);
   if (fault == 0) return;
-  if (pid_ > 0) waitpid(pid_, nullptr, 0);
+  if (pid_ > 0) End();
   CloseStdin();
   throw std::runtime_error(plan.command[0] + ": " + strerror(fault));
 }
 
 ChildProcess::~ChildProcess() {
-  if (pid_ > 0) {
-    kill(-pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
-  }
+  if (pid_ > 0) End();
   CloseStdin();
+}
+
+// While it is unreaped its number belongs to its group: what it left there can be ended safely.
+int ChildProcess::End() {
+  kill(-pid_, SIGKILL);
+  kill(pid_, SIGKILL);  // had it no group yet
+  int status = 0;
+  siginfo_t state = {};
+  waitid(P_PID, static_cast<id_t>(pid_), &state, WEXITED | WNOWAIT);
+  OrphanGuard::Leave(guard_fd_, pid_);
+  waitpid(pid_, &status, 0);
+  pid_ = -1;
+  return status;
 }
 
 void ChildProcess::CloseStdin() {
@@ -166,11 +180,7 @@ std::optional<Ending> ChildProcess::Reap() {
       state.si_pid != pid_) {
     return std::nullopt;
   }
-  // While it is unreaped its number belongs to its group: what it left there can be ended safely.
-  kill(-pid_, SIGKILL);
-  int status = 0;
-  waitpid(pid_, &status, 0);
-  pid_ = -1;
+  const int status = End();
   ForwardOutput();
   if (WIFEXITED(status)) {
     const int code = WEXITSTATUS(status);

@@ -33,6 +33,7 @@ std::unique_ptr<ModuleProcess> ModuleMaker::Make(const Module& module,
   plan.env = {module.env().begin(), module.env().end()};
   plan.cpus = {module.cpu().begin(), module.cpu().end()};
   plan.nice = module.nice();
+  plan.guard_fd = guard_.fd();
   plan.max_memory_bytes = int64_t{module.memory_limit_mb()} << 20;
   return std::make_unique<ModuleProcess>(module.name(), std::move(plan),
                                          SignalOf(module.stop_signal()));

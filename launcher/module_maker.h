@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "launcher/orphan_guard.h"
 #include "launcher/recorder.h"
 #include "launcher/resolved_graph.h"
 #include "launcher/run_folder.h"
@@ -15,9 +16,9 @@ namespace declutter::launcher {
 // record of what the graph is.
 class ModuleMaker : public SuccessorMaker {
  public:
-  // Both are kept.
-  ModuleMaker(const ResolvedGraph& graph, const RunFolder& folder)
-      : graph_(graph), folder_(folder) {}
+  // All are kept.
+  ModuleMaker(const ResolvedGraph& graph, const RunFolder& folder, const OrphanGuard& guard)
+      : graph_(graph), folder_(folder), guard_(guard) {}
 
   // recorder will be told what the graph has become; it is kept.
   void SetRecorder(Recorder* recorder) { recorder_ = recorder; }
@@ -31,6 +32,7 @@ class ModuleMaker : public SuccessorMaker {
 
   const ResolvedGraph& graph_;
   const RunFolder& folder_;
+  const OrphanGuard& guard_;
   Recorder* recorder_ = nullptr;
   std::map<std::string, ControlRequest> requests_;  // the last of each module
   int num_made_ = 0;                                // for users

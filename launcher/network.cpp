@@ -82,10 +82,12 @@ bool PassesSelfTest(const std::string& url) {
 
 // What a child that is silent says to it; false when it throws.
 bool Succeeds(const std::function<bool()>& attempt) {
+  const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid < 0) throw std::runtime_error(std::string("fork: ") + strerror(errno));
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);  // it died before the line above
     dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
     try {
       _exit(attempt() ? 0 : 1);

@@ -9,6 +9,7 @@
 #include "launcher/launcher_log.h"
 #include "launcher/module_maker.h"
 #include "launcher/network.h"
+#include "launcher/orphan_guard.h"
 #include "launcher/plan_nodes.h"
 #include "launcher/recorder.h"
 #include "launcher/run_folder.h"
@@ -40,7 +41,7 @@ std::optional<Recording> PlanRecording(const ResolvedGraph& graph, const RunOpti
 
 std::unique_ptr<Recorder> MakeRecorder(const Recording& recording, const ResolvedGraph& graph,
                                        const std::string& url, const RunFolder& folder,
-                                       Wire* wire) {
+                                       const OrphanGuard& guard, Wire* wire) {
   const auto logger = FindProgram(kLogger);
   if (!logger) throw std::runtime_error(std::string(kLogger) + " is not installed");
   CheckFreeSpace(recording);
@@ -53,6 +54,7 @@ std::unique_ptr<Recorder> MakeRecorder(const Recording& recording, const Resolve
   }
   plan.command.push_back(recording.path);
   plan.log_path = folder.LogPath(kLogger);
+  plan.guard_fd = guard.fd();
   return std::make_unique<Recorder>(std::move(plan), recording,
                                     InfoOf(graph.Versions(), graph.Text()), wire);
 }
@@ -62,6 +64,7 @@ std::unique_ptr<Recorder> MakeRecorder(const Recording& recording, const Resolve
 int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
   RunOptions options = requested;
   options.url = options.url.empty() ? ChooseUrl() : WithReceiveBuffer(options.url);
+  const OrphanGuard guard;
   if (options.is_isolated) Isolate();
   const UrlClaim claim(options.url);
   options.is_isolated = EnsureMulticast(options.url) || options.is_isolated;
@@ -73,12 +76,12 @@ int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
   wire.Subscribe(HeardChannels(options));
 
   ProcessMap processes;
-  ModuleMaker maker(graph, folder);
+  ModuleMaker maker(graph, folder, guard);
   for (const ResolvedModule& resolved : graph.modules) {
     processes[resolved.module.name()] = maker.Make(resolved.module);
   }
   if (const auto recording = PlanRecording(graph, options, folder)) {
-    auto recorder = MakeRecorder(*recording, graph, options.url, folder, &wire);
+    auto recorder = MakeRecorder(*recording, graph, options.url, folder, guard, &wire);
     maker.SetRecorder(recorder.get());
     processes[kLogger] = std::move(recorder);
   }

@@ -20,7 +20,9 @@ using testing::SizeIs;
 
 class RunTest : public testing::Test {
  protected:
-  // Each of our processes has the folder's path on its command line.
+  // Each of our processes has the folder's path on its command line: the launcher, the guard that
+  // outlives it for a moment, and two modules.
+  static constexpr size_t kNumProcesses = 4;
   std::vector<pid_t> Processes() const { return ProcessesWith(folder_.Path("")); }
 
   std::vector<std::string> Command(const std::string& graph) const {
@@ -116,7 +118,7 @@ TEST_F(RunTest, KeepsNoMoreThanTwoFilesOfAModuleThatFillsItsStdout) {
 TEST_F(RunTest, StopsInOrderOnASignal) {
   const std::string graph = FakeGraph(folder_, SourceConfig(kEndless), "");
   Launched launcher(Command(graph), folder_);
-  ASSERT_TRUE(Eventually([this] { return Processes().size() == 3; }));
+  ASSERT_TRUE(Eventually([this] { return Processes().size() == kNumProcesses; }));
   launcher.Signal(SIGINT);
   const Outcome outcome = launcher.Wait();
   EXPECT_EQ(outcome.code, 130);
@@ -127,11 +129,41 @@ TEST_F(RunTest, LeavesNoProcessBehindWhenTheLauncherIsKilled) {
   const std::string graph = FakeGraph(folder_, SourceConfig(kEndless), "");
   for (int i = 0; i < 3; ++i) {
     Launched launcher(Command(graph), folder_);
-    ASSERT_TRUE(Eventually([this] { return Processes().size() == 3; }));
+    ASSERT_TRUE(Eventually([this] { return Processes().size() == kNumProcesses; }));
     launcher.Signal(SIGKILL);
     EXPECT_EQ(launcher.Wait().code, 128 + SIGKILL);
     EXPECT_TRUE(Eventually([this] { return Processes().empty(); }));
   }
+}
+
+TEST_F(RunTest, LeavesNothingBehindThatAModuleHasStarted) {
+  const std::string program = folder_.Write(
+      "with_helper", "#!/bin/sh\ntail -f " + folder_.Path("graph.textproto") + " >" +
+                         folder_.Path("tail") + " &\nexec " + Fake("fake_filter") + " \"$@\"\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string graph = folder_.Write(
+      "graph.textproto", Block("source", "fake_source", SourceConfig(kEndless)) +
+                             "module { name: \"filter\" program: \"" + program + "\" }");
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    Launched launcher(Command(graph), folder_);
+    ASSERT_TRUE(Eventually([this] { return Processes().size() == kNumProcesses + 1; }));
+    launcher.Signal(signal);
+    launcher.Wait();
+    EXPECT_TRUE(Eventually([this] { return Processes().empty(); }));
+  }
+}
+
+TEST_F(RunTest, StopsInOrderWhenItsTerminalCloses) {
+  const std::string log = folder_.Path("run.lcm");
+  std::vector<std::string> command = Command(LiveGraph(folder_, "", ""));
+  command.insert(command.end(), {"--record", log});
+  Launched launcher(command, folder_);
+  ASSERT_TRUE(Eventually([&] { return UtimesOf("OBJECTS", log).size() > 20; }));
+  launcher.Signal(SIGHUP);
+  const Outcome outcome = launcher.Wait();
+  EXPECT_EQ(outcome.code, 0) << outcome.err;  // the log is complete
+  EXPECT_GT(UtimesOf("OBJECTS", log).size(), 20u);
+  EXPECT_THAT(outcome.err, HasSubstr("launcher: stopping on signal 1"));
 }
 
 TEST_F(RunTest, RecordsEveryMessage) {
@@ -210,13 +242,18 @@ TEST_F(RunTest, RunsInANetworkOfItsOwnWhenAsked) {
   const auto says = [this](const std::string& text) {
     return ReadFile(folder_.Path("stderr")).find(text) != std::string::npos;
   };
-  ASSERT_TRUE(Eventually([&] { return Processes().size() == 3 || says("no network namespace"); }));
+  ASSERT_TRUE(Eventually(
+      [&] { return Processes().size() == kNumProcesses || says("no network namespace"); }));
   if (says("no network namespace")) GTEST_SKIP() << "no network namespaces here";
   EXPECT_TRUE(says(" in a network of its own, logs in "));
   const auto network = [](const std::string& pid) {
     return std::filesystem::read_symlink("/proc/" + pid + "/ns/net").string();
   };
-  for (const pid_t pid : Processes()) EXPECT_NE(network(std::to_string(pid)), network("self"));
+  for (const pid_t process : Processes()) {
+    const std::string pid = std::to_string(process);
+    if (ReadFile("/proc/" + pid + "/comm") == "launcher-guard\n") continue;
+    EXPECT_NE(network(pid), network("self"));
+  }
   launcher.Signal(SIGINT);
   EXPECT_EQ(launcher.Wait().code, 130);
 }
@@ -226,7 +263,7 @@ TEST_F(RunTest, RefusesASecondGraphOnTheSameUrlAndNamesTheFirst) {
   const std::string url = "udpm://239.255.76.67:" + std::to_string(32'100 + getpid() % 600);
   command.insert(command.end(), {"--url", url + "?ttl=0"});
   Launched first(command, folder_);
-  ASSERT_TRUE(Eventually([this] { return Processes().size() == 3; }));
+  ASSERT_TRUE(Eventually([this] { return Processes().size() == kNumProcesses; }));
   const TemporaryFolder other;
   const Outcome second =
       RunLauncher({"run", FakeGraph(other, "", ""), "--url", url + "?ttl=1"}, other);
