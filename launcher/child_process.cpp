@@ -161,10 +161,19 @@ void ChildProcess::Send(const std::string& text) {
   CloseStdin();
 }
 
+void ChildProcess::Log(const std::string& lines) {
+  const int fault = log_.Write(lines);
+  if (fault != 0 && log_fault_ == 0) {
+    WriteAll(STDERR_FILENO, "launcher: " + log_.path() + ": " + strerror(fault) +
+                                "; what its process prints is lost\n");
+  }
+  log_fault_ = fault;
+}
+
 void ChildProcess::ForwardOutput() {
-  stdout_.Forward([this](const std::string& lines) { log_.Write(lines); });
+  stdout_.Forward([this](const std::string& lines) { Log(lines); });
   stderr_.Forward([this](const std::string& lines) {
-    log_.Write(lines);
+    Log(lines);
     WriteAll(STDERR_FILENO, lines);
   });
 }

@@ -60,6 +60,7 @@ class ChildProcess {
 
  private:
   void CloseStdin();
+  void Log(const std::string& lines);
   int End();  // of it and its group; returns the status of waitpid
 
   RotatingLog log_;
@@ -67,6 +68,7 @@ class ChildProcess {
   OutputPipe stderr_;
   int stdin_fd_ = -1;
   int guard_fd_ = -1;
+  int log_fault_ = 0;  // errno of the last line
   pid_t pid_ = -1;
 };
 
