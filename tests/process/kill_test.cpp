@@ -22,12 +22,14 @@ class KillTest : public testing::Test {
         "graph.textproto",
         "include: \"" + config + "/robot.textproto\"\nlogger { min_free_mb: 64 }\n" +
             "module { name: \"object_exporter\" disabled: false restart: \"on_failure\" }\n");
+    // One image: rendering more whenever it is opened is nothing that a real sensor does.
+    const std::string sensor = folder_.Write(
+        "sensor.textproto", "scene: \"" + config + "/scenes/demo.textproto\" num_images: 1");
     launcher_.emplace(
-        std::vector<std::string>{
-            LAUNCHER, "run", graph, "--log_dir", folder_.Path("logs"), "--set",
-            "kinect_source.input=live:synthetic:" + config + "/demo_sensor.textproto", "--set",
-            "object_exporter.output=" + folder_.Path("objects"), "--set",
-            "object_exporter.pictures=false"},
+        std::vector<std::string>{LAUNCHER, "run", graph, "--log_dir", folder_.Path("logs"), "--set",
+                                 "kinect_source.input=live:synthetic:" + sensor, "--set",
+                                 "object_exporter.output=" + folder_.Path("objects"), "--set",
+                                 "object_exporter.pictures=false"},
         folder_);
   }
 
