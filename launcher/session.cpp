@@ -204,10 +204,20 @@ void Session::Do(const StartSuccessor& action) {
 
 void Session::Do(const Promote& action) {
   auto successor = successors_.extract(action.name);
-  successor.mapped()->Release(processes_.at(action.name)->last_utime());
-  processes_.at(action.name) = std::move(successor.mapped());
+  std::unique_ptr<Process>& process = processes_.at(action.name);
+  successor.mapped()->Release(process->last_utime());
+  predecessors_[action.name] = std::exchange(process, std::move(successor.mapped()));
   vitals_[action.name] = {};
+}
+
+void Session::Do(const Adopt& action) {
+  predecessors_.erase(action.name);
   links_.maker->Adopt(action.name);
+}
+
+void Session::Do(const Revert& action) {
+  processes_.at(action.name) = std::move(predecessors_.extract(action.name).mapped());
+  vitals_[action.name] = {};
 }
 
 }  // namespace declutter::launcher

@@ -69,11 +69,14 @@ class Session {
   void Do(const StartSuccessor& action);
   void Do(const EndSuccessor& action) { successors_.erase(action.name); }
   void Do(const Promote& action);
+  void Do(const Adopt& action);
+  void Do(const Revert& action);
 
   const Links links_;
   Supervisor supervisor_;
   ProcessMap processes_;
   std::map<std::string, std::unique_ptr<ModuleProcess>> successors_;
+  ProcessMap predecessors_;  // of those on trial
   std::map<std::string, Vitals> vitals_;
   Orders orders_;
   int signal_fd_;

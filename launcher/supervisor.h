@@ -81,7 +81,14 @@ struct EndSuccessor {  // at once
 struct Promote {  // the successor to the process that it follows, which has ended
   std::string name;
 };
-using Action = std::variant<Start, Terminate, Kill, Say, StartSuccessor, EndSuccessor, Promote>;
+struct Adopt {  // what was promoted: it will not be reverted any more
+  std::string name;
+};
+struct Revert {  // to what was there before the successor, which has ended; Start follows
+  std::string name;
+};
+using Action =
+    std::variant<Start, Terminate, Kill, Say, StartSuccessor, EndSuccessor, Promote, Adopt, Revert>;
 
 // Of a process. Pausing: it starts again in a moment. Stopped: a user asked for it. Ended: for
 // good.
@@ -107,7 +114,8 @@ bool Lives(State state);
 // its way. A process that fails starts again as its rule says, except after exit code 2, which says
 // that it never can. The run ends when all sources have ended, when a required process has failed
 // for good, or on a signal. A swap ends a process when its successor has heard a whole frame, and
-// promotes that when it has ended; what goes wrong before leaves the old one where it is.
+// promotes that when it has ended; what goes wrong before leaves the old one where it is, and when
+// the new one ends before its first frame the old one starts again.
 class Supervisor {
  public:
   // is_finite: the graph is run over recordings, so a signal cuts it short. nodes must have unique
@@ -170,6 +178,8 @@ class Supervisor {
   void KillNow(Process* process, double now_s);
   void BeginSwap(Process* process, double now_s);
   void PromoteNow(Process* process, double now_s);
+  void AdoptNow(Process* process);
+  void RevertNow(Process* process, const Exited& event, double now_s);
   void CancelSwap(Process* process);
 
   // Ends a process that gets nowhere; its rule says what then.

@@ -79,7 +79,7 @@ class World {
     for (const Action& action : supervisor_.Handle(event, now_s_)) Check(action, was_stopping);
     for (const Node& node : nodes_) CheckState(node.name);
     ASSERT_EQ(supervisor_.finished(), supervisor_.is_stopping() && alive_.empty());
-    ASSERT_TRUE(!supervisor_.is_stopping() || successors_.empty());
+    ASSERT_TRUE(!supervisor_.is_stopping() || (successors_.empty() && on_trial_.empty()));
     ASSERT_FALSE(was_stopping && !supervisor_.is_stopping());
   }
 
@@ -119,6 +119,12 @@ class World {
     } else if (const auto* promoted = std::get_if<Promote>(&action)) {
       ASSERT_EQ(successors_.erase(promoted->name), 1u);
       ASSERT_TRUE(alive_.insert(promoted->name).second) << "two of " << promoted->name;
+      ASSERT_TRUE(on_trial_.insert(promoted->name).second);
+    } else if (const auto* adopted = std::get_if<Adopt>(&action)) {
+      ASSERT_EQ(on_trial_.erase(adopted->name), 1u);
+    } else if (const auto* reverted = std::get_if<Revert>(&action)) {
+      ASSERT_EQ(on_trial_.erase(reverted->name), 1u);
+      ASSERT_EQ(alive_.count(reverted->name), 0u);
     }
   }
 
@@ -168,7 +174,8 @@ class World {
     const bool lives = state == State::kStarting || state == State::kRunning ||
                        state == State::kTerminating || state == State::kKilled;
     ASSERT_EQ(lives, alive_.count(name) == 1) << name;
-    ASSERT_EQ(supervisor_.is_swapping(name), successors_.count(name) == 1) << name;
+    ASSERT_EQ(supervisor_.is_swapping(name), successors_.count(name) + on_trial_.count(name) == 1)
+        << name;
   }
 
   Supervisor supervisor_;
@@ -176,6 +183,7 @@ class World {
   std::set<std::string> alive_;
   std::set<std::string> killed_;
   std::set<std::string> successors_;
+  std::set<std::string> on_trial_;  // successors that were promoted
   std::set<std::string> started_;
   std::set<std::string> wanted_;   // a user has asked for a start that has not come yet
   std::set<std::string> refused_;  // ended with 2

@@ -18,6 +18,7 @@ using testing::AllOf;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 // A camera of 50 Hz and a filter, and what a user asks of them while they run.
 class ControlTest : public testing::Test {
@@ -192,6 +193,21 @@ TEST_F(ControlTest, KeepsTheOldModuleWhenTheNewOneNeverGetsReady) {
   ASSERT_TRUE(HasObjects(UtimesOf("OBJECTS", log_).size() + 20));
   EXPECT_THAT(End().err, HasSubstr("the successor of filter is not ready 1 s after its start"));
   EXPECT_EQ(NumLostOrDoubled(), 0);
+}
+
+TEST_F(ControlTest, StartsTheOldModuleAgainWhenTheNewOneFailsAtItsFirstFrame) {
+  Run("", "");
+  ASSERT_TRUE(HasObjects(20));
+  for (const char* mishap : {"crashes_at_start", "refuses"}) {
+    const Outcome outcome =
+        Ask({"swap", "filter", Fake("fake_filter"), "--set", std::string("filter.mishap=") + mishap,
+             "--set", "filter.at_frame=0", "--set", "filter.num_frames=100000"});
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("filter was not swapped"));
+    ASSERT_TRUE(HasObjects(UtimesOf("OBJECTS", log_).size() + 20));
+  }
+  EXPECT_THAT(ReadFile(folder_.Path("logs/latest/graph.textproto")), Not(HasSubstr("mishap")));
+  EXPECT_THAT(End().err, HasSubstr("before its first frame; filter starts again as it was"));
 }
 
 TEST_F(ControlTest, RefusesToSwapInWhatDoesNotFit) {
