@@ -8,8 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/process/fake_graph.h"
-#include "tests/process/launched.h"
+#include "tests/process/fake_run.h"
 
 namespace declutter {
 namespace {
@@ -20,16 +19,12 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // A camera of 50 Hz, a filter and a logger in the graph.
-class LoggerTest : public testing::Test {
+class LoggerTest : public FakeRun {
  protected:
   std::string Graph(const std::string& logger_fields) {
     const std::string graph = LiveGraph(folder_, "", "");
     return folder_.Write("logged.textproto",
                          "include: \"graph.textproto\"\nlogger { " + logger_fields + " }");
-  }
-
-  std::vector<std::string> Command(const std::string& graph) const {
-    return {LAUNCHER, "run", graph, "--log_dir", folder_.Path("logs")};
   }
 
   std::string File(int number) const {
@@ -55,12 +50,6 @@ class LoggerTest : public testing::Test {
   static bool HasFrames(const std::string& file, size_t num) {
     return Eventually([&] { return UtimesOf("OBJECTS", file).size() >= num; });
   }
-
-  void TearDown() override {
-    EXPECT_TRUE(Eventually([this] { return ProcessesWith(folder_.Path("")).empty(); }));
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(LoggerTest, RecordsTheRunWithWhatMadeItToTheLastMessage) {

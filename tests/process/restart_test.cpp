@@ -2,8 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include "tests/process/fake_graph.h"
-#include "tests/process/launched.h"
+#include "tests/process/fake_run.h"
 
 namespace declutter {
 namespace {
@@ -14,12 +13,8 @@ using testing::Not;
 
 constexpr const char* kRestart = "restart: \"on_failure\" restart_delay_s: 0.05 ";
 
-class RestartTest : public testing::Test {
+class RestartTest : public FakeRun {
  protected:
-  std::vector<std::string> Command(const std::string& graph) const {
-    return {LAUNCHER, "run", graph, "--log_dir", folder_.Path("logs")};
-  }
-
   // The process of a module; 0 while there is none.
   pid_t Find(const std::string& program) const {
     const auto found = ModulesOf(program);
@@ -31,12 +26,6 @@ class RestartTest : public testing::Test {
   bool Says(const std::string& text) const {
     return Eventually([&] { return Err().find(text) != std::string::npos; });
   }
-
-  void TearDown() override {
-    EXPECT_TRUE(Eventually([this] { return ProcessesWith(folder_.Path("")).empty(); }));
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(RestartTest, BringsAKilledModuleBackEachTime) {
