@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "launcher/console.h"
 #include "launcher/orphan_guard.h"
 
 namespace declutter::launcher {
@@ -164,8 +165,8 @@ void ChildProcess::Send(const std::string& text) {
 void ChildProcess::Log(const std::string& lines) {
   const int fault = log_.Write(lines);
   if (fault != 0 && log_fault_ == 0) {
-    WriteAll(STDERR_FILENO, "launcher: " + log_.path() + ": " + strerror(fault) +
-                                "; what its process prints is lost\n");
+    WriteToConsole("launcher: " + log_.path() + ": " + strerror(fault) +
+                   "; what its process prints is lost\n");
   }
   log_fault_ = fault;
 }
@@ -174,7 +175,7 @@ void ChildProcess::ForwardOutput() {
   stdout_.Forward([this](const std::string& lines) { Log(lines); });
   stderr_.Forward([this](const std::string& lines) {
     Log(lines);
-    WriteAll(STDERR_FILENO, lines);
+    WriteToConsole(lines);
   });
 }
 

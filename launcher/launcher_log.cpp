@@ -1,7 +1,8 @@
 #include "launcher/launcher_log.h"
 
 #include <ctime>
-#include <iostream>
+
+#include "launcher/console.h"
 
 namespace declutter::launcher {
 namespace {
@@ -22,7 +23,7 @@ std::string Now() {
 LauncherLog::LauncherLog(const std::string& path) : log_(path, kMaxLog) {}
 
 void LauncherLog::Say(const std::string& text) {
-  std::cerr << "launcher: " << text << std::endl;
+  WriteToConsole("launcher: " + text + "\n");
   log_.Write(Now() + " " + text + "\n");
 }
 

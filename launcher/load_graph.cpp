@@ -173,7 +173,7 @@ WiredModule GraphLoader::Wire(size_t i) {
 
 bool GraphLoader::CheckChannels() {
   for (size_t i = 0; i < modules().size(); ++i) wiring_.push_back(Wire(i));
-  for (Fault& fault : CheckWiring(wiring_)) faults_->push_back(std::move(fault));
+  for (Fault& fault : CheckWiring(wiring_, files_.external())) faults_->push_back(std::move(fault));
   return faults_->empty();
 }
 
@@ -181,19 +181,14 @@ ResolvedGraph GraphLoader::Resolve() {
   ResolvedGraph resolved;
   resolved.lossless = files_.lossless();
   resolved.logger = files_.logger();
-  TextFormat::Printer printer;
-  printer.SetExpandAny(true);
-  printer.SetFinder(&catalog_);
+  resolved.external = files_.external();
   for (size_t i = 0; i < modules().size(); ++i) {
-    Graph block;
-    Module* module = block.add_module();
-    *module = modules()[i].module;
-    module->set_program(programs_[i]);
-    module->mutable_config()->PackFrom(*configs_[i]);
-    std::string text, config_text;
-    printer.PrintToString(block, &text);
-    printer.PrintToString(*configs_[i], &config_text);
-    resolved.modules.push_back({*module, text, description(i).version(), config_text, wiring_[i],
+    Module module = modules()[i].module;
+    module.set_program(programs_[i]);
+    module.mutable_config()->PackFrom(*configs_[i]);
+    std::string config_text;
+    TextFormat::PrintToString(*configs_[i], &config_text);
+    resolved.modules.push_back({module, description(i).version(), config_text, wiring_[i],
                                 FindMissing(modules()[i], *configs_[i])});
   }
   return resolved;

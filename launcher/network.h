@@ -6,7 +6,8 @@ namespace declutter::launcher {
 
 // An LCM url of this machine alone, on a port that nothing uses, so that two graphs never mix, with
 // the largest receive buffer that the kernel grants up to 4 MiB.
-std::string ChooseUrl();
+// num_refused: how many of those chosen before could not be had.
+std::string ChooseUrl(int num_refused = 0);
 
 // The url with the largest receive buffer that the system allows, where it names none: with the
 // usual one a busy machine loses the larger messages.

@@ -16,6 +16,7 @@
 #include "launcher/session.h"
 #include "launcher/url_claim.h"
 #include "launcher/wire.h"
+#include "modules/runtime/config_error.h"
 
 namespace declutter::launcher {
 namespace {
@@ -59,14 +60,28 @@ std::unique_ptr<Recorder> MakeRecorder(const Recording& recording, const Resolve
                                     InfoOf(graph.Versions(), graph.Text()), wire);
 }
 
+// Of the url that is given, else of one that nobody else uses, which url becomes.
+std::unique_ptr<UrlClaim> Claim(std::string* url) {
+  constexpr int kMaxRefused = 20;
+  const bool is_given = !url->empty();
+  for (int num_refused = 0;; ++num_refused) {
+    *url = is_given ? WithReceiveBuffer(*url) : ChooseUrl(num_refused);
+    try {
+      return std::make_unique<UrlClaim>(*url);
+    } catch (const runtime::ConfigError&) {
+      // Another launcher has chosen the same port at this moment.
+      if (is_given || num_refused == kMaxRefused) throw;
+    }
+  }
+}
+
 }  // namespace
 
 int RunGraph(const ResolvedGraph& graph, const RunOptions& requested) {
   RunOptions options = requested;
-  options.url = options.url.empty() ? ChooseUrl() : WithReceiveBuffer(options.url);
   const OrphanGuard guard;
   if (options.is_isolated) Isolate();
-  const UrlClaim claim(options.url);
+  const std::unique_ptr<UrlClaim> claim = Claim(&options.url);
   options.is_isolated = EnsureMulticast(options.url) || options.is_isolated;
   setenv("LCM_DEFAULT_URL", options.url.c_str(), 1);
   const RunFolder folder(options.logs, graph);

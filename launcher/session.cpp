@@ -31,7 +31,8 @@ sigset_t HandledSignals() {
 }
 
 Beat BeatOf(const std::string& name, const module_status_t& status) {
-  return {name, status.num_done, status.num_waiting > 0 || status.num_in > status.num_done};
+  return {name, status.num_done + status.num_out,
+          status.num_waiting > 0 || status.num_in > status.num_done};
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct Ready {
 };
 struct Beat {
   std::string name;
-  long num_done = 0;     // frames finished
+  long num_done = 0;     // grows with each frame that is finished or given out
   bool is_busy = false;  // a frame is begun or waits
 };
 struct Exited {

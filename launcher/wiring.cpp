@@ -37,9 +37,10 @@ Publications CollectPublishers(const std::vector<WiredModule>& modules,
 }
 
 void CheckInput(const WiredModule& module, const Port& input, const Publications& publications,
-                std::vector<Fault>* faults) {
+                const std::set<std::string>& external, std::vector<Fault>* faults) {
   if (IsShared(input)) return;
   const auto found = publications.find(input.channel);
+  if (found == publications.end() && external.count(input.channel) != 0) return;
   if (found == publications.end()) {
     std::vector<std::string> channels;
     for (const auto& [channel, publication] : publications) channels.push_back(channel);
@@ -97,11 +98,28 @@ void Print(const std::vector<Fault>& faults) {
   }
 }
 
-std::vector<Fault> CheckWiring(const std::vector<WiredModule>& modules) {
+std::set<std::string> Unpublished(const std::vector<WiredModule>& modules) {
+  std::vector<Fault> ignored;
+  const Publications publications = CollectPublishers(modules, &ignored);
+  std::set<std::string> unpublished;
+  for (const WiredModule& module : modules) {
+    for (const Port& input : module.inputs) {
+      if (!IsShared(input) && publications.count(input.channel) == 0) {
+        unpublished.insert(input.channel);
+      }
+    }
+  }
+  return unpublished;
+}
+
+std::vector<Fault> CheckWiring(const std::vector<WiredModule>& modules,
+                               const std::set<std::string>& external) {
   std::vector<Fault> faults;
   const Publications publications = CollectPublishers(modules, &faults);
   for (const WiredModule& module : modules) {
-    for (const Port& input : module.inputs) CheckInput(module, input, publications, &faults);
+    for (const Port& input : module.inputs) {
+      CheckInput(module, input, publications, external, &faults);
+    }
   }
   CheckCycles(modules, &faults);
   return faults;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,12 @@ struct WiredModule {
 // The channels' faults: two publishers of one, none of one that is consumed, two types on one, a
 // cycle, of messages or of starting one after the other. What only releases a source may close a
 // cycle; MODULE_STATUS is everybody's.
-std::vector<Fault> CheckWiring(const std::vector<WiredModule>& modules);
+// external: channels that may be consumed though nothing here publishes them.
+std::vector<Fault> CheckWiring(const std::vector<WiredModule>& modules,
+                               const std::set<std::string>& external = {});
+
+// Channels that are consumed and that nothing here publishes.
+std::set<std::string> Unpublished(const std::vector<WiredModule>& modules);
 
 // Indices of the modules that consume what module number index publishes, releases not counted.
 std::vector<size_t> Downstream(const std::vector<WiredModule>& modules, size_t index);

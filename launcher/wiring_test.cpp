@@ -49,6 +49,13 @@ TEST(WiringTest, FindsAChannelThatNothingPublishesAndTheNameMeant) {
                           "mean 'DEPTH_FRAMES'?"));
 }
 
+TEST(WiringTest, AcceptsAChannelThatComesFromOutside) {
+  const std::vector<WiredModule> modules = {{"filter", "g:2:1", {kDepth}, {kTable}}};
+  EXPECT_THAT(Unpublished(modules), ElementsAre("DEPTH_FRAME"));
+  EXPECT_THAT(CheckWiring(modules, {"DEPTH_FRAME"}), IsEmpty());
+  EXPECT_THAT(CheckWiring(modules, {"TABLETOP"}), testing::SizeIs(1));
+}
+
 TEST(WiringTest, FindsAChannelWithTwoTypes) {
   EXPECT_THAT(Texts(CheckWiring({{"source", "g:1:1", {}, {{"TABLETOP", "depth_frame_t"}}},
                                  {"estimator", "g:2:1", {kTable}, {}}})),

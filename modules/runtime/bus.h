@@ -70,7 +70,7 @@ class Bus {
 
   // For sources: poll returns the seconds until it wants to be called again (0: at once; messages
   // that arrived are handled in between), or nullopt when the source is finished and the process
-  // should end.
+  // should end. It should not take longer than a second: the launcher ends what hangs in it.
   void Poll(std::function<std::optional<double>()> poll);
 
   // True in a run over recordings, where no frame may be skipped.

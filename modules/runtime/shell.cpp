@@ -22,6 +22,9 @@ constexpr std::size_t kMaxKeptParts = 64;
 // A lossless source keeps one frame in flight; this is for publishers that do not.
 constexpr std::size_t kMaxWaiting = 1024;
 
+// A sensor gives its next frame much earlier.
+constexpr double kLongPollMs = 900;
+
 double Milliseconds() {
   return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count();
 }
@@ -165,7 +168,9 @@ void Shell::Start() {
 bool Shell::PollOnce(Clock::time_point* next) {
   // Waiting longer than an hour at once gains nothing, and keeps the sum within the clock's range.
   constexpr double kLongestWaitS = 3600;
+  poll_since_ms_ = Milliseconds();
   const std::optional<double> wait_s = poll_();
+  poll_since_ms_ = 0;
   if (!wait_s) return false;
   const std::chrono::duration<double> wait(std::clamp(*wait_s, 0.0, kLongestWaitS));
   *next = Clock::now() + std::chrono::duration_cast<Clock::duration>(wait);
@@ -198,7 +203,9 @@ void Shell::PublishStatus(State state) {
   status.version = DECLUTTER_VERSION;
   status.pid = getpid();
   status.state = static_cast<std::int8_t>(state);
-  status.num_waiting = static_cast<std::int32_t>(inbox_.size());
+  const double since_ms = poll_since_ms_;
+  const bool is_held = since_ms > 0 && Milliseconds() - since_ms > kLongPollMs;
+  status.num_waiting = static_cast<std::int32_t>(inbox_.size()) + (is_held ? 1 : 0);
   Bytes message(static_cast<std::size_t>(status.getEncodedSize()));
   const int size = status.encode(message.data(), 0, static_cast<int>(message.size()));
   if (size < 0) throw std::logic_error("status does not encode");

@@ -115,6 +115,7 @@ class Shell {
   PollFunction poll_;
   Sink sink_;
   std::atomic<bool> failed_{false};
+  std::atomic<double> poll_since_ms_{0};  // 0: none is under way
 };
 
 }  // namespace declutter::runtime

@@ -96,6 +96,16 @@ TEST_F(RestartTest, RestartsAModuleThatHangsThoughItStillGivesSignsOfLife) {
   EXPECT_EQ(launcher.Wait().code, 0) << Err();
 }
 
+TEST_F(RestartTest, RestartsASourceThatHangsInItsSensor) {
+  const std::string source = SourceConfig("num_frames: 1000 stuck_at: 5");
+  const std::string graph = FakeGraph(folder_, kRestart + source + " hang_limit_s: 1", "");
+  Launched launcher(Command(graph), folder_);
+  ASSERT_TRUE(Says("source hangs: input waits and no frame was finished for 1 s")) << Err();
+  ASSERT_TRUE(Says("source was killed; starts again in 0.05 s"));
+  launcher.Signal(SIGTERM);
+  EXPECT_EQ(launcher.Wait().code, 143) << Err();
+}
+
 TEST_F(RestartTest, FailsWhenAModuleHangsThatMayNotRestart) {
   const std::string filter = "hang_limit_s: 1 grace_period_s: 0.2 ";
   const Outcome outcome = RunLauncher(

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -88,6 +89,22 @@ TEST_F(RunTest, KeepsNoMoreThanTwoFilesOfAModuleThatFillsItsStdout) {
   EXPECT_GT(std::filesystem::file_size(log + ".1"), 9u << 20);
   EXPECT_LE(std::filesystem::file_size(log + ".1"), 10u << 20);
   EXPECT_LE(std::filesystem::file_size(log), 10u << 20);
+}
+
+TEST_F(RunTest, IsNotHeldByAConsoleThatTakesNoMore) {
+  const std::string noisy =
+      folder_.Write("noisy", "#!/bin/sh\n[ \"$1\" = --describe ] || yes " + folder_.Path("") +
+                                 " >&2 &\nexec " + Fake("fake_filter") + " \"$@\"\n");
+  std::filesystem::permissions(noisy, std::filesystem::perms::owner_all);
+  const std::string graph = folder_.Write(
+      "graph.textproto", Block("source", "fake_source", SourceConfig("num_frames: 50")) +
+                             "module { name: \"filter\" program: \"" + noisy + "\" }");
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  Launched launcher(Command(graph), folder_, [&] { dup2(ends[1], STDERR_FILENO); });
+  EXPECT_EQ(launcher.Wait().code, 0);
+  EXPECT_GT(std::filesystem::file_size(folder_.Path("logs/latest/filter.log")), 100'000u);
+  for (const int end : ends) close(end);
 }
 
 TEST_F(RunTest, StopsInOrderOnASignal) {

@@ -70,6 +70,19 @@ TEST_F(SwapTest, RefusesToSwapInWhatDoesNotFit) {
   End();
 }
 
+TEST_F(SwapTest, SwapsAModuleOfAPartOfAGraph) {
+  Launched part({LAUNCHER, "run", FakeGraph(folder_, "after: \"filter\"", ""), "--without",
+                 "filter", "--log_dir", folder_.Path("logs")},
+                folder_);
+  ASSERT_TRUE(Eventually([this] { return Row("source").find(" running ") != std::string::npos; }));
+  const std::string resolved = folder_.Path("logs/latest/graph.textproto");
+  EXPECT_THAT(ReadFile(resolved), HasSubstr("external: \"OBJECTS\""));
+  EXPECT_EQ(Ask({"swap", "source", Fake("fake_source")}).code, 0);
+  EXPECT_EQ(Launched({LAUNCHER, "check", resolved}, asking_).Wait().code, 0);
+  part.Signal(SIGKILL);
+  part.Wait();
+}
+
 TEST_F(SwapTest, SwapsInAProgramWithParametersOfItsOwn) {
   Run("", FilterConfig("at_frame: 50"));
   ASSERT_TRUE(HasObjects(20));
