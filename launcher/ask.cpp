@@ -13,6 +13,7 @@
 #include "launcher/find_program.h"
 #include "launcher/load_graph.h"
 #include "launcher/status_table.h"
+#include "modules/runtime/suggestion.h"
 
 namespace declutter::launcher {
 namespace {
@@ -44,16 +45,35 @@ bool Runs(const std::string& folder) {
   return true;
 }
 
-// Prints what is new in a log since *position, which a shorter file takes back to its start.
-bool PrintNew(const std::string& path, std::streamoff* position) {
+// Names of the processes that have logs.
+std::vector<std::string> LogsIn(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".log") names.push_back(entry.path().stem());
+  }
+  return names;
+}
+
+// Prints a file from *position, which moves to its end; false when there is nothing.
+bool PrintFrom(const std::string& path, std::streamoff* position) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = file.tellg();
-  if (size < *position) *position = 0;
-  if (!file || size == *position) return false;
+  if (!file || size <= *position) return false;
   file.seekg(*position);
   std::cout << file.rdbuf() << std::flush;
   *position = size;
   return true;
+}
+
+// Prints what is new in a log since *position. A shorter file is a new one: the rest of that before
+// is in the older.
+bool PrintNew(const std::string& path, std::streamoff* position) {
+  std::error_code ignored;
+  if (fs::file_size(path, ignored) < static_cast<std::uintmax_t>(*position)) {
+    PrintFrom(path + ".1", position);
+    *position = 0;
+  }
+  return PrintFrom(path, position);
 }
 
 }  // namespace
@@ -77,12 +97,13 @@ int ShowStatus(const CommandLine& line) {
 int ShowLog(const CommandLine& line) {
   const std::string folder = FolderOf(line);
   const std::string path = folder + "/" + line.module + ".log";
-  if (!fs::exists(path)) throw std::runtime_error(path + ": there is no such log");
-  std::streamoff position = 0;
-  if (std::ifstream older(path + ".1", std::ios::binary); older.peek() != EOF) {
-    std::cout << older.rdbuf();
+  if (!fs::exists(path)) {
+    throw runtime::ConfigError(folder + ": nothing named '" + line.module + "' has run there" +
+                               runtime::Suggestion(line.module, LogsIn(folder)));
   }
-  PrintNew(path, &position);
+  std::streamoff older_position = 0, position = 0;
+  PrintFrom(path + ".1", &older_position);
+  PrintFrom(path, &position);
   while (line.follows) {
     const bool runs = Runs(folder);
     if (!PrintNew(path, &position) && !runs) break;
@@ -115,6 +136,7 @@ int Swap(const CommandLine& line) {
   request.set_module(line.module);
   request.set_program(*program);
   request.set_graph_text(graph->Text());
+  request.set_versions_text(graph->Versions());
   for (const ResolvedModule& resolved : graph->modules) {
     if (resolved.module.name() != line.module) continue;
     request.set_config_text(resolved.config_text);

@@ -14,6 +14,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "launcher/console.h"
+#include "launcher/orphan_guard.h"
+
 namespace declutter::launcher {
 namespace {
 
@@ -80,6 +83,7 @@ void Limit(const LaunchPlan& plan) {
   // The parent may have died before the line above: then nobody would end us.
   if (getppid() != parent) _exit(kExecFailed);
   setpgid(0, 0);
+  OrphanGuard::Enter(plan.guard_fd, getpid());
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -104,7 +108,8 @@ int ExecFault(int fd) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const LaunchPlan& plan) : log_(plan.log_path, kMaxLog) {
+ChildProcess::ChildProcess(const LaunchPlan& plan)
+    : log_(plan.log_path, kMaxLog), guard_fd_(plan.guard_fd) {
   const std::vector<char*> argv = Pointers(plan.command);
   const std::vector<std::string> environment = EnvironmentWith(plan.env);
   const std::vector<char*> env = Pointers(environment);
@@ -124,17 +129,27 @@ ChildProcess::ChildProcess(const LaunchPlan& plan) : log_(plan.log_path, kMaxLog
   const int fault = pid_ < 0 ? errno : ExecFault(fault_read_end);
   close(fault_read_end);
   if (fault == 0) return;
-  if (pid_ > 0) waitpid(pid_, nullptr, 0);
+  if (pid_ > 0) End();
   CloseStdin();
   throw std::runtime_error(plan.command[0] + ": " + strerror(fault));
 }
 
 ChildProcess::~ChildProcess() {
-  if (pid_ > 0) {
-    kill(-pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
-  }
+  if (pid_ > 0) End();
   CloseStdin();
+}
+
+// While it is unreaped its number belongs to its group: what it left there can be ended safely.
+int ChildProcess::End() {
+  kill(-pid_, SIGKILL);
+  kill(pid_, SIGKILL);  // had it no group yet
+  int status = 0;
+  siginfo_t state = {};
+  waitid(P_PID, static_cast<id_t>(pid_), &state, WEXITED | WNOWAIT);
+  OrphanGuard::Leave(guard_fd_, pid_);
+  waitpid(pid_, &status, 0);
+  pid_ = -1;
+  return status;
 }
 
 void ChildProcess::CloseStdin() {
@@ -147,11 +162,20 @@ void ChildProcess::Send(const std::string& text) {
   CloseStdin();
 }
 
+void ChildProcess::Log(const std::string& lines) {
+  const int fault = log_.Write(lines);
+  if (fault != 0 && log_fault_ == 0) {
+    WriteToConsole("launcher: " + log_.path() + ": " + strerror(fault) +
+                   "; what its process prints is lost\n");
+  }
+  log_fault_ = fault;
+}
+
 void ChildProcess::ForwardOutput() {
-  stdout_.Forward([this](const std::string& lines) { log_.Write(lines); });
+  stdout_.Forward([this](const std::string& lines) { Log(lines); });
   stderr_.Forward([this](const std::string& lines) {
-    log_.Write(lines);
-    WriteAll(STDERR_FILENO, lines);
+    Log(lines);
+    WriteToConsole(lines);
   });
 }
 
@@ -166,11 +190,7 @@ std::optional<Ending> ChildProcess::Reap() {
       state.si_pid != pid_) {
     return std::nullopt;
   }
-  // While it is unreaped its number belongs to its group: what it left there can be ended safely.
-  kill(-pid_, SIGKILL);
-  int status = 0;
-  waitpid(pid_, &status, 0);
-  pid_ = -1;
+  const int status = End();
   ForwardOutput();
   if (WIFEXITED(status)) {
     const int code = WEXITSTATUS(status);

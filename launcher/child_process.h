@@ -27,6 +27,7 @@ struct LaunchPlan {
   std::vector<int> cpus;             // that it may run on; empty: all
   int nice = 0;
   int64_t max_memory_bytes = 0;  // of address space; 0: as ours
+  int guard_fd = -1;             // of an OrphanGuard
 };
 
 // A child in a process group of its own that dies with the thread that started it, however that
@@ -59,11 +60,15 @@ class ChildProcess {
 
  private:
   void CloseStdin();
+  void Log(const std::string& lines);
+  int End();  // of it and its group; returns the status of waitpid
 
   RotatingLog log_;
   OutputPipe stdout_;
   OutputPipe stderr_;
   int stdin_fd_ = -1;
+  int guard_fd_ = -1;
+  int log_fault_ = 0;  // errno of the last line
   pid_t pid_ = -1;
 };
 

@@ -35,14 +35,15 @@ constexpr const char* kHelp = R"(launcher: runs a graph of modules
   Of the graph that was started last, or of the one with the run folder --run DIR:
 
   launcher status [--watch]
-      A line for each process: state, restarts, load, frames in, out and lost, time per frame.
+      A line for each process: state, restarts, load, frames in, out and lost, frames per second,
+      ms per frame, and latency: ms from the first message of a frame to its end, in this process.
   launcher start MODULE, launcher stop MODULE, launcher restart MODULE
       Returns when it runs or has ended; with 1 when it does not come up.
   launcher swap MODULE PROGRAM [--set MODULE.FIELD=VALUE]...
       Lets PROGRAM, or the same one with other parameters, take over from MODULE without losing a
       frame; MODULE goes on when PROGRAM does not get ready.
   launcher logs MODULE [--follow]
-      What it has printed.
+      What it has printed; of "launcher" what that has done.
 
   launcher doctor [--log_dir DIR]
       Looks at what a run needs from this machine, and tells what mends what is missing.
@@ -190,7 +191,7 @@ bool IsHelp(const std::string& word) { return word == "--help" || word == "-h"; 
 CommandLine ParseCommandLine(const std::vector<std::string>& arguments) {
   CommandLine line;
   if (std::any_of(arguments.begin(), arguments.end(), IsHelp)) return line;
-  if (arguments.empty()) throw ConfigError("check or run what? --help tells more");
+  if (arguments.empty()) throw ConfigError("what is to be done? --help tells more");
   const VerbRule& rule = FindVerb(arguments[0]);
   line.verb = rule.verb;
   line.word = rule.word;

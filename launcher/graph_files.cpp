@@ -85,6 +85,8 @@ void GraphFiles::ReadFile(const std::string& path, const std::string& where,
 void GraphFiles::Merge(const GraphText& text, std::vector<Fault>* faults) {
   if (text.graph().has_lossless()) lossless_ = text.graph().lossless();
   if (text.graph().has_logger()) logger_ = text.graph().logger();
+  const auto& external = text.graph().external();
+  if (!external.empty()) external_ = {external.begin(), external.end()};
   for (int i = 0; i < text.graph().module_size(); ++i) MergeModule(text, i, faults);
 }
 

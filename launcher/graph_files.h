@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,7 @@ class GraphFiles {
 
   bool lossless() const { return lossless_; }
   const std::optional<Logger>& logger() const { return logger_; }
+  const std::set<std::string>& external() const { return external_; }
 
  private:
   void ReadFile(const std::string& path, const std::string& where,
@@ -61,6 +63,7 @@ class GraphFiles {
   std::vector<MergedModule> modules_;
   bool lossless_ = false;
   std::optional<Logger> logger_;
+  std::set<std::string> external_;
 };
 
 }  // namespace declutter::launcher

@@ -9,6 +9,7 @@
 
 #include "launcher/find_program.h"
 #include "launcher/module_configs.h"
+#include "modules/runtime/suggestion.h"
 
 namespace declutter::launcher {
 namespace {
@@ -32,6 +33,7 @@ class GraphLoader {
   bool CheckName(const MergedModule& module);
   void CheckSettings(const MergedModule& module);
   void FindProgram(const MergedModule& module);
+  std::vector<std::string> ModulesBefore(const MergedModule& module);
   WiredModule Wire(size_t index);
   const std::vector<MergedModule>& modules() const { return files_.modules(); }
   const ModuleDescription& description(size_t i) { return catalog_.Describe(programs_[i]); }
@@ -92,6 +94,10 @@ void GraphLoader::FindProgram(const MergedModule& module) {
     return;
   }
   try {
+    // Parameters in the graph are of the program that is replaced.
+    if (swapped != swapped_.end() && IsExecutable(module.module.program())) {
+      catalog_.Describe(module.module.program());
+    }
     catalog_.Describe(path);
   } catch (const std::runtime_error& error) {
     Add(where, error.what());
@@ -122,6 +128,27 @@ bool GraphLoader::ReadConfigs(const std::vector<std::string>& assignments) {
   return faults_->empty();
 }
 
+std::vector<std::string> GraphLoader::ModulesBefore(const MergedModule& module) {
+  std::vector<std::string> before;
+  for (const std::string& name : module.module.after()) {
+    bool is_known = false;
+    std::vector<std::string> known;
+    for (const MergedModule& other : modules()) {
+      const auto& groups = other.module.group();
+      known.push_back(other.name());
+      known.insert(known.end(), groups.begin(), groups.end());
+      const bool is_in = std::count(groups.begin(), groups.end(), name) != 0;
+      is_known = is_known || is_in || other.name() == name;
+      // A member of a group may be after the rest of it.
+      if (other.name() == name || (is_in && &other != &module)) before.push_back(other.name());
+    }
+    if (is_known) continue;
+    Add(module.Where("after"),
+        "after: no module or group named '" + name + "'" + runtime::Suggestion(name, known));
+  }
+  return before;
+}
+
 WiredModule GraphLoader::Wire(size_t i) {
   const MergedModule& module = modules()[i];
   std::map<std::string, std::string> names;
@@ -135,7 +162,7 @@ WiredModule GraphLoader::Wire(size_t i) {
     const auto found = names.find(port.channel());
     return Port{found == names.end() ? port.channel() : found->second, port.type()};
   };
-  WiredModule wired{module.name(), module.Where(""), {}, {}};
+  WiredModule wired{module.name(), module.Where(""), {}, {}, ModulesBefore(module)};
   for (const auto& port : description(i).input()) wired.inputs.push_back(renamed(port));
   for (const auto& port : description(i).output()) wired.outputs.push_back(renamed(port));
   for (const std::string& channel : unused) {
@@ -146,7 +173,7 @@ WiredModule GraphLoader::Wire(size_t i) {
 
 bool GraphLoader::CheckChannels() {
   for (size_t i = 0; i < modules().size(); ++i) wiring_.push_back(Wire(i));
-  for (Fault& fault : CheckWiring(wiring_)) faults_->push_back(std::move(fault));
+  for (Fault& fault : CheckWiring(wiring_, files_.external())) faults_->push_back(std::move(fault));
   return faults_->empty();
 }
 
@@ -154,19 +181,14 @@ ResolvedGraph GraphLoader::Resolve() {
   ResolvedGraph resolved;
   resolved.lossless = files_.lossless();
   resolved.logger = files_.logger();
-  TextFormat::Printer printer;
-  printer.SetExpandAny(true);
-  printer.SetFinder(&catalog_);
+  resolved.external = files_.external();
   for (size_t i = 0; i < modules().size(); ++i) {
-    Graph block;
-    Module* module = block.add_module();
-    *module = modules()[i].module;
-    module->set_program(programs_[i]);
-    module->mutable_config()->PackFrom(*configs_[i]);
-    std::string text, config_text;
-    printer.PrintToString(block, &text);
-    printer.PrintToString(*configs_[i], &config_text);
-    resolved.modules.push_back({*module, text, description(i).version(), config_text, wiring_[i],
+    Module module = modules()[i].module;
+    module.set_program(programs_[i]);
+    module.mutable_config()->PackFrom(*configs_[i]);
+    std::string config_text;
+    TextFormat::PrintToString(*configs_[i], &config_text);
+    resolved.modules.push_back({module, description(i).version(), config_text, wiring_[i],
                                 FindMissing(modules()[i], *configs_[i])});
   }
   return resolved;

@@ -33,6 +33,7 @@ int Run(const CommandLine& line, ResolvedGraph graph) {
   if (options.logs.empty()) options.logs = DefaultLogs();
   Select(line.only, line.without, &graph);
   if (!line.replay.empty()) options.replay = PlanReplay(line, &graph);
+  MakeWhole(&graph);
   bool is_complete = true;
   for (const ResolvedModule& module : graph.modules) {
     Print(module.missing);

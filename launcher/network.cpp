@@ -82,10 +82,12 @@ bool PassesSelfTest(const std::string& url) {
 
 // What a child that is silent says to it; false when it throws.
 bool Succeeds(const std::function<bool()>& attempt) {
+  const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid < 0) throw std::runtime_error(std::string("fork: ") + strerror(errno));
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);  // it died before the line above
     dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
     try {
       _exit(attempt() ? 0 : 1);
@@ -134,11 +136,11 @@ void BringLoopbackUp() {
 
 }  // namespace
 
-std::string ChooseUrl() {
+std::string ChooseUrl(int num_refused) {
   int port = 0;
   for (int i = 0; i < kNumPorts && port == 0; ++i) {
     const int candidate = kFirstPort + (getpid() + i) % kNumPorts;
-    if (IsFree(candidate)) port = candidate;
+    if (IsFree(candidate) && num_refused-- == 0) port = candidate;
   }
   if (port == 0) throw std::runtime_error("no free port for messages");
   return WithReceiveBuffer(std::string("udpm://") + kMulticastAddress + ":" + std::to_string(port) +
@@ -172,8 +174,8 @@ void Isolate() {
   BringLoopbackUp();
 }
 
-void EnsureMulticast(const std::string& url) {
-  if (CarriesMessages(url)) return;
+bool EnsureMulticast(const std::string& url) {
+  if (CarriesMessages(url)) return false;
   try {
     Isolate();
   } catch (const std::runtime_error& error) {
@@ -183,6 +185,7 @@ void EnsureMulticast(const std::string& url) {
                              "); as root: ip link set lo up; ip route add 239.0.0.0/8 dev lo");
   }
   if (!CarriesMessages(url)) throw std::runtime_error(url + " carries no messages of 150 KB");
+  return true;
 }
 
 }  // namespace declutter::launcher

@@ -45,13 +45,24 @@ std::string LastLine(std::string text) {
 }
 
 // False when the process still runs at the time limit.
-bool EndsWithin(pid_t pid, double limit_s, int* status) {
+bool EndsWithin(pid_t pid, double limit_s) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit_s);
-  while (waitpid(pid, status, WNOHANG) == 0) {
+  for (;;) {
+    siginfo_t state = {};
+    waitid(P_PID, static_cast<id_t>(pid), &state, WEXITED | WNOHANG | WNOWAIT);
+    if (state.si_pid == pid) return true;
     if (std::chrono::steady_clock::now() > deadline) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  return true;
+}
+
+// Ends it and what it has started; returns the status of waitpid.
+int End(pid_t pid) {
+  kill(-pid, SIGKILL);  // while it is unreaped its number belongs to its group
+  kill(pid, SIGKILL);   // had it no group yet
+  int status = 0;
+  waitpid(pid, &status, 0);
+  return status;
 }
 
 }  // namespace
@@ -61,22 +72,22 @@ ProgramOutput RunProgram(const std::vector<std::string>& command, double limit_s
   std::vector<char*> argv;
   for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
+  const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid < 0) throw std::runtime_error(std::string("fork: ") + strerror(errno));
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(127);  // it died before the line above
+    setpgid(0, 0);
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(out.fd(), STDOUT_FILENO);
     dup2(err.fd(), STDERR_FILENO);
     execv(argv[0], argv.data());
     _exit(127);
   }
-  int status = 0;
-  if (!EndsWithin(pid, limit_s, &status)) {
-    kill(pid, SIGKILL);
-    waitpid(pid, &status, 0);
-    return {1, "no answer in time", "", LastLine(err.Read())};
-  }
+  const bool is_in_time = EndsWithin(pid, limit_s);
+  const int status = End(pid);
+  if (!is_in_time) return {1, "no answer in time", "", LastLine(err.Read())};
   if (WIFSIGNALED(status)) return {1, strsignal(WTERMSIG(status)), "", LastLine(err.Read())};
   const int code = WEXITSTATUS(status);
   return {code, "exit code " + std::to_string(code), out.Read(), LastLine(err.Read())};

@@ -63,6 +63,11 @@ Recorder::Recorder(LaunchPlan plan, Recording recording, const run_info_t& info,
       info_(Encode(kRunInfo, info)),
       wire_(wire) {}
 
+void Recorder::Tell(const run_info_t& info) {
+  info_ = Encode(kRunInfo, info);
+  if (is_ready_ && !is_ending_) wire_->Publish(info_);
+}
+
 void Recorder::Start() {
   if (recording_.is_split) old_file_ = CurrentFile();
   Program::Start();

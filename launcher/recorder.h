@@ -23,6 +23,9 @@ class Recorder : public Program {
   // plan: of lcm-logger. info is written to the beginning of each file. wire is kept.
   Recorder(LaunchPlan plan, Recording recording, const run_info_t& info, Wire* wire);
 
+  // What makes the log from now on.
+  void Tell(const run_info_t& info);
+
   void Start() override;
   void Terminate() override;
   void OnMessage(const Message& message) override;

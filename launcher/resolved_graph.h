@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,6 @@ namespace declutter::launcher {
 // A module of a graph that was checked, ready to start.
 struct ResolvedModule {
   Module module;            // program an absolute path
-  std::string text;         // its block of a graph file
   std::string version;      // of the program
   std::string config_text;  // its parameters as protobuf text, all layers merged
   WiredModule wiring;
@@ -24,14 +24,13 @@ struct ResolvedGraph {
   bool lossless = false;
   std::vector<ResolvedModule> modules;
   std::optional<Logger> logger;
+  std::set<std::string> external;  // channels that come from outside
 
   // The whole as a graph file.
-  std::string Text() const {
-    std::string text = lossless ? "lossless: true\n" : "lossless: false\n";
-    if (logger) text += "logger {\n" + logger->DebugString() + "}\n";
-    for (const ResolvedModule& module : modules) text += module.text;
-    return text;
-  }
+  std::string Text() const;
+
+  // A line for each program: its path and version.
+  std::string Versions() const;
 };
 
 }  // namespace declutter::launcher

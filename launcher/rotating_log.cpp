@@ -32,7 +32,7 @@ RotatingLog::RotatingLog(const std::string& path, int64_t max_bytes)
 
 RotatingLog::~RotatingLog() { close(fd_); }
 
-void RotatingLog::Write(const std::string& text) {
+int RotatingLog::Write(const std::string& text) {
   const auto size = static_cast<int64_t>(text.size());
   if (num_bytes_ > 0 && num_bytes_ + size > max_bytes_) {
     const bool is_moved = std::rename(path_.c_str(), (path_ + ".1").c_str()) == 0;
@@ -43,17 +43,19 @@ void RotatingLog::Write(const std::string& text) {
       num_bytes_ = 0;
     }
   }
-  WriteAll(fd_, text);
-  num_bytes_ += size;
+  const int fault = WriteAll(fd_, text);
+  if (fault == 0) num_bytes_ += size;
+  return fault;
 }
 
-void WriteAll(int fd, const std::string& text) {
+int WriteAll(int fd, const std::string& text) {
   for (size_t done = 0; done < text.size();) {
     const ssize_t written = write(fd, text.data() + done, text.size() - done);
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;
+    if (written < 0) return errno;
     done += static_cast<size_t>(written);
   }
+  return 0;
 }
 
 }  // namespace declutter::launcher

@@ -15,8 +15,10 @@ class RotatingLog {
   RotatingLog(const RotatingLog&) = delete;
   RotatingLog& operator=(const RotatingLog&) = delete;
 
-  // What the disk does not take is lost.
-  void Write(const std::string& text);
+  // What the disk does not take is lost: then the errno of that, else 0.
+  int Write(const std::string& text);
+
+  const std::string& path() const { return path_; }
 
  private:
   std::string path_;
@@ -25,7 +27,7 @@ class RotatingLog {
   int64_t num_bytes_;
 };
 
-// Writes all that is taken.
-void WriteAll(int fd, const std::string& text);
+// Writes all that is taken; the errno of what is not, else 0.
+int WriteAll(int fd, const std::string& text);
 
 }  // namespace declutter::launcher

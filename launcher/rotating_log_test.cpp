@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -48,6 +49,12 @@ TEST_F(RotatingLogTest, WritesALineThatIsLongerThanAFile) {
   log.Write("b\n");
   EXPECT_EQ(Read(path_), "b\n");
   EXPECT_EQ(Read(path_ + ".1"), "a long line\n");
+}
+
+TEST_F(RotatingLogTest, TellsThatTheDiskIsFullAndKeepsWhatWasWrittenBefore) {
+  RotatingLog log("/dev/full", 10);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(log.Write("a line\n"), ENOSPC);
+  EXPECT_FALSE(std::filesystem::exists("/dev/full.1"));
 }
 
 TEST_F(RotatingLogTest, NamesAFileThatCannotBeOpened) {

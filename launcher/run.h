@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "launcher/log_feeder.h"
 #include "launcher/resolved_graph.h"
@@ -17,10 +16,6 @@ struct RunOptions {
   std::optional<ReplayPlan> replay = {};
   bool is_isolated = false;  // in a network of its own
 };
-
-// The processes of a run: the modules, a recorder downstream of all of them, a log in place of
-// sources.
-std::vector<Node> PlanNodes(const ResolvedGraph& graph, const RunOptions& options);
 
 // Runs a graph to its end; returns the exit code. Throws std::runtime_error when there is no
 // network, no folder for logs or no recorder.

@@ -44,15 +44,16 @@ RunFolder::RunFolder(const std::string& logs, const ResolvedGraph& graph) {
     throw std::runtime_error(path_ + ": " + error.message() +
                              "; --log_dir names another folder for logs");
   }
-  WriteGraph(graph.Text());
+  WriteGraph(graph.Text(), graph.Versions());
   for (const ResolvedModule& module : graph.modules) {
     WriteConfig(module.module.name(), module.config_text);
   }
   PointLatestTo(logs, name);
 }
 
-void RunFolder::WriteGraph(const std::string& text) const {
+void RunFolder::WriteGraph(const std::string& text, const std::string& versions) const {
   WriteFile(path_ + "/graph.textproto", text);
+  WriteFile(path_ + "/versions.txt", versions);
 }
 
 std::string RunFolder::WriteConfig(const std::string& process, const std::string& text) const {

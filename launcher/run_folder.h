@@ -6,8 +6,8 @@
 
 namespace declutter::launcher {
 
-// The folder of one run: the resolved graph, each module's resolved parameters and each process's
-// log. `latest` beside it points to it.
+// The folder of one run: the resolved graph, the versions of its programs, each module's resolved
+// parameters and each process's log. `latest` beside it points to it.
 class RunFolder {
  public:
   // Makes the folder in logs, named by date, time and process number, and writes the graph into it.
@@ -17,7 +17,7 @@ class RunFolder {
   const std::string& path() const { return path_; }
 
   // The graph as it has become.
-  void WriteGraph(const std::string& text) const;
+  void WriteGraph(const std::string& text, const std::string& versions) const;
 
   // Returns the path of a file with the parameters of a process.
   std::string WriteConfig(const std::string& process, const std::string& text) const;

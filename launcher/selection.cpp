@@ -50,4 +50,21 @@ void Select(const std::string& only, const std::string& without, ResolvedGraph* 
   if (modules.empty()) throw runtime::ConfigError("--only and --without leave no module");
 }
 
+void MakeWhole(ResolvedGraph* graph) {
+  std::vector<WiredModule> wiring;
+  std::set<std::string> names;
+  for (const ResolvedModule& resolved : graph->modules) {
+    wiring.push_back(resolved.wiring);
+    names.insert(resolved.module.name());
+  }
+  graph->external = Unpublished(wiring);
+  for (ResolvedModule& resolved : graph->modules) {
+    const std::vector<std::string> before = resolved.wiring.after;
+    resolved.module.clear_after();
+    for (const std::string& name : before) {
+      if (names.count(name) != 0) resolved.module.add_after(name);
+    }
+  }
+}
+
 }  // namespace declutter::launcher

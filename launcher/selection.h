@@ -11,4 +11,8 @@ namespace declutter::launcher {
 // in the same network. Throws runtime::ConfigError for an unknown name, or when nothing is left.
 void Select(const std::string& only, const std::string& without, ResolvedGraph* graph);
 
+// Lets what is left of a graph stand for itself: what it consumes and nothing in it publishes comes
+// from outside, and nothing waits for a module that is not there.
+void MakeWhole(ResolvedGraph* graph);
+
 }  // namespace declutter::launcher

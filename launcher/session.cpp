@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iostream>
 #include <stdexcept>
 #include <utility>
@@ -27,7 +28,8 @@ sigset_t HandledSignals() {
 }
 
 Beat BeatOf(const std::string& name, const module_status_t& status) {
-  return {name, status.num_done, status.num_waiting > 0 || status.num_in > status.num_done};
+  return {name, status.num_done + status.num_out,
+          status.num_waiting > 0 || status.num_in > status.num_done};
 }
 
 }  // namespace
@@ -38,13 +40,10 @@ void HoldSignals() {
   signal(SIGPIPE, SIG_IGN);  // whoever reads our stderr may leave; the run goes on
 }
 
-Session::Session(Supervisor supervisor, ProcessMap processes, Wire* wire, ControlSocket* control,
-                 SuccessorMaker* maker)
-    : supervisor_(std::move(supervisor)),
-      processes_(std::move(processes)),
-      wire_(wire),
-      control_(control),
-      maker_(maker) {
+Session::Session(Links links, Supervisor supervisor, ProcessMap processes)
+    : links_(std::move(links)),
+      supervisor_(std::move(supervisor)),
+      processes_(std::move(processes)) {
   const sigset_t signals = HandledSignals();
   signal_fd_ = signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC);
   if (signal_fd_ < 0) throw std::runtime_error("signals cannot be waited for");
@@ -57,7 +56,7 @@ int Session::Run() {
   while (!supervisor_.finished()) {
     Wait();
     ReadSignals();
-    const std::vector<Message> messages = wire_->Receive();
+    const std::vector<Message> messages = links_.wire->Receive();
     ListenToProcesses(messages);
     ListenToSuccessors(messages);
     ListenToUsers();
@@ -68,7 +67,7 @@ int Session::Run() {
 
 void Session::Wait() {
   std::vector<pollfd> waited = {
-      {signal_fd_, POLLIN, 0}, {wire_->fd(), POLLIN, 0}, {control_->fd(), POLLIN, 0}};
+      {signal_fd_, POLLIN, 0}, {links_.wire->fd(), POLLIN, 0}, {links_.control->fd(), POLLIN, 0}};
   for (const auto& [name, process] : processes_) waited.push_back({process->fd(), POLLIN, 0});
   for (const auto& [name, process] : successors_) waited.push_back({process->fd(), POLLIN, 0});
   poll(waited.data(), waited.size(), kTurn_ms);
@@ -116,8 +115,8 @@ void Session::ListenToSuccessors(const std::vector<Message>& messages) {
 }
 
 void Session::ListenToUsers() {
-  for (const auto& [id, request] : control_->Receive()) Take(id, request);
-  for (const auto& [id, reply] : orders_.Settle(supervisor_)) control_->Answer(id, reply);
+  for (const auto& [id, request] : links_.control->Receive()) Take(id, request);
+  for (const auto& [id, reply] : orders_.Settle(supervisor_)) links_.control->Answer(id, reply);
 }
 
 void Session::Take(ControlSocket::Id id, const ControlRequest& request) {
@@ -126,12 +125,12 @@ void Session::Take(ControlSocket::Id id, const ControlRequest& request) {
                                                     {"stop", Verb::kStop},
                                                     {"restart", Verb::kRestart},
                                                     {"swap", Verb::kSwap}};
-  if (request.verb() == "status") return control_->Answer(id, Report());
+  if (request.verb() == "status") return links_.control->Answer(id, Report());
   const auto refuse = [&](const std::string& why) {
     ControlReply reply;
     reply.set_code(kRefused);
     reply.set_text(why);
-    control_->Answer(id, reply);
+    links_.control->Answer(id, reply);
   };
   const auto verb = verbs.find(request.verb());
   if (verb == verbs.end()) return refuse("this launcher does not know " + request.verb());
@@ -150,7 +149,7 @@ void Session::Take(ControlSocket::Id id, const ControlRequest& request) {
                                                    : "is " + NameOf(supervisor_.state(name))));
     }
     try {
-      successors_[name] = maker_->Make(request);
+      successors_[name] = links_.maker->Make(request);
     } catch (const std::runtime_error& error) {
       return refuse(error.what());
     }
@@ -159,6 +158,7 @@ void Session::Take(ControlSocket::Id id, const ControlRequest& request) {
       return refuse(name + " is no module that can be swapped");
     }
   }
+  links_.log->Say("asked to " + request.verb() + " " + name);
   orders_.Add(id, verb->second, name, supervisor_);
   Decide(Asked{verb->second, name});
 }
@@ -166,6 +166,7 @@ void Session::Take(ControlSocket::Id id, const ControlRequest& request) {
 ControlReply Session::Report() const {
   ControlReply reply;
   reply.set_code(0);
+  reply.set_place(links_.place);
   for (const auto& [name, vitals] : vitals_) {
     ProcessStatus* status = reply.add_process();
     *status = vitals.Report();
@@ -201,11 +202,20 @@ void Session::Do(const StartSuccessor& action) {
 
 void Session::Do(const Promote& action) {
   auto successor = successors_.extract(action.name);
-  successor.mapped()->Release(processes_.at(action.name)->last_utime());
-  processes_.at(action.name) = std::move(successor.mapped());
-  maker_->Adopt(action.name);
+  std::unique_ptr<Process>& process = processes_.at(action.name);
+  successor.mapped()->Release(process->last_utime());
+  predecessors_[action.name] = std::exchange(process, std::move(successor.mapped()));
+  vitals_[action.name] = {};
 }
 
-void Session::Do(const Say& action) { std::cerr << "launcher: " << action.text << std::endl; }
+void Session::Do(const Adopt& action) {
+  predecessors_.erase(action.name);
+  links_.maker->Adopt(action.name);
+}
+
+void Session::Do(const Revert& action) {
+  processes_.at(action.name) = std::move(predecessors_.extract(action.name).mapped());
+  vitals_[action.name] = {};
+}
 
 }  // namespace declutter::launcher

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "launcher/control_socket.h"
+#include "launcher/launcher_log.h"
 #include "launcher/module_process.h"
 #include "launcher/orders.h"
 #include "launcher/supervisor.h"
@@ -35,9 +36,16 @@ class SuccessorMaker {
 // what processes print. One at a time in a program, as signals come once.
 class Session {
  public:
-  // wire, control and maker are kept.
-  Session(Supervisor supervisor, ProcessMap processes, Wire* wire, ControlSocket* control,
-          SuccessorMaker* maker);
+  // What it is linked to; all is kept.
+  struct Links {
+    Wire* wire;
+    ControlSocket* control;
+    SuccessorMaker* maker;
+    LauncherLog* log;
+    std::string place;  // where the run can be found, for people
+  };
+
+  Session(Links links, Supervisor supervisor, ProcessMap processes);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -57,19 +65,20 @@ class Session {
   void Do(const Start& action);
   void Do(const Terminate& action) { processes_.at(action.name)->Terminate(); }
   void Do(const Kill& action) { processes_.at(action.name)->Kill(); }
-  void Do(const Say& action);
+  void Do(const Say& action) { links_.log->Say(action.text); }
   void Do(const StartSuccessor& action);
   void Do(const EndSuccessor& action) { successors_.erase(action.name); }
   void Do(const Promote& action);
+  void Do(const Adopt& action);
+  void Do(const Revert& action);
 
+  const Links links_;
   Supervisor supervisor_;
   ProcessMap processes_;
   std::map<std::string, std::unique_ptr<ModuleProcess>> successors_;
+  ProcessMap predecessors_;  // of those on trial
   std::map<std::string, Vitals> vitals_;
   Orders orders_;
-  Wire* wire_;
-  ControlSocket* control_;
-  SuccessorMaker* maker_;
   int signal_fd_;
 };
 

@@ -4,6 +4,7 @@ namespace declutter::launcher {
 namespace {
 
 constexpr double kListenLimit_s = 3.0;  // status comes once a second
+constexpr double kTrial_s = 3.0;
 
 }  // namespace
 
@@ -24,6 +25,10 @@ bool Succession::is_late(double limit_s, double now_s) const {
 
 bool Succession::is_due(double now_s) const {
   return step_ == Step::kListening && (has_input_ || now_s - since_s_ > kListenLimit_s);
+}
+
+bool Succession::has_passed(double now_s) const {
+  return step_ == Step::kOnTrial && now_s - since_s_ > kTrial_s;
 }
 
 }  // namespace declutter::launcher

@@ -3,11 +3,11 @@
 namespace declutter::launcher {
 
 // The way of a new process into the place of a running one: it starts without handling anything,
-// keeps what arrives until it has a whole frame, and takes over when the old one has ended. Times
-// are of any clock that does not go back.
+// keeps what arrives until it has a whole frame, takes over when the old one has ended, and is on
+// trial until its first frame is finished. Times are of any clock that does not go back.
 class Succession {
  public:
-  enum class Step { kNone, kStarting, kListening, kTakingOver };
+  enum class Step { kNone, kStarting, kListening, kTakingOver, kOnTrial };
 
   Step step() const { return step_; }
   bool is_under_way() const { return step_ != Step::kNone; }
@@ -26,6 +26,12 @@ class Succession {
   bool is_due(double now_s) const;
 
   void TakeOver(double now_s) { Enter(Step::kTakingOver, now_s); }
+
+  void Try(double now_s) { Enter(Step::kOnTrial, now_s); }
+  bool is_on_trial() const { return step_ == Step::kOnTrial; }
+
+  // It has been on trial for so long without a frame that none seems to come.
+  bool has_passed(double now_s) const;
 
  private:
   void Enter(Step step, double now_s);

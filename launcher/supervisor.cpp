@@ -70,7 +70,9 @@ void Supervisor::On(const Ready& event, double now_s) {
 }
 
 void Supervisor::On(const Beat& event, double now_s) {
-  processes_.at(event.name).watch.Beat(event.num_done, event.is_busy, now_s);
+  Process& process = processes_.at(event.name);
+  process.watch.Beat(event.num_done, event.is_busy, now_s);
+  if (process.succession.is_on_trial() && event.num_done > 0) AdoptNow(&process);
 }
 
 void Supervisor::On(const Exited& event, double now_s) {
@@ -83,6 +85,10 @@ void Supervisor::On(const Exited& event, double now_s) {
     Tell(event.name + " ended with " + event.how);
   }
   if (process.then == Then::kPromote) return PromoteNow(&process, now_s);
+  const bool is_end_of_input = EndsByItself(process.node, event) && event.code == 0;
+  if (process.succession.is_on_trial() && process.then == Then::kRule && !is_end_of_input) {
+    return RevertNow(&process, event, now_s);
+  }
   CancelSwap(&process);
   if (process.then == Then::kRule) return ApplyRule(event, was, ran_s, now_s);
   if (process.then == Then::kStart) return StartNow(&process, now_s);
@@ -155,41 +161,6 @@ void Supervisor::On(const Asked& event, double now_s) {
   } else {
     Enter(State::kStopped, &process, now_s);
   }
-}
-
-void Supervisor::BeginSwap(Process* process, double now_s) {
-  if (process->state != State::kRunning || process->succession.is_under_way()) return;
-  process->succession.Begin(now_s);
-  actions_.push_back(StartSuccessor{process->node.name});
-}
-
-void Supervisor::On(const SuccessorBeat& event, double now_s) {
-  processes_.at(event.name).succession.Beat(event.has_input, now_s);
-}
-
-void Supervisor::On(const SuccessorExited& event, double) {
-  Process& process = processes_.at(event.name);
-  if (!process.succession.is_under_way()) return;
-  process.succession.Cancel();
-  const bool is_too_late = process.then == Then::kPromote && Lives(process.state);
-  if (is_too_late) process.then = Then::kStart;
-  Tell("the successor of " + event.name + " ended with " + event.how + "; " + event.name +
-       (is_too_late ? " starts again" : " goes on"));
-}
-
-void Supervisor::PromoteNow(Process* process, double now_s) {
-  process->succession.Cancel();
-  process->then = Then::kRule;
-  ++process->num_swaps;
-  Enter(State::kRunning, process, now_s);
-  process->watch.Start(now_s);
-  actions_.push_back(Promote{process->node.name});
-}
-
-void Supervisor::CancelSwap(Process* process) {
-  if (!process->succession.is_under_way()) return;
-  process->succession.Cancel();
-  actions_.push_back(EndSuccessor{process->node.name});
 }
 
 void Supervisor::StartNow(Process* process, double now_s) {

@@ -14,7 +14,8 @@ namespace declutter::launcher {
 // A process as the supervisor sees it.
 struct Node {
   std::string name;
-  std::vector<std::string> downstream;  // consumers: ready before this starts, stopped after it
+  std::vector<std::string> downstream;  // consumers and the like: ready before this starts,
+                                        // stopped after it
   bool is_source = false;               // may end by itself: 0 or 1 is the end of its input
   double start_limit_s = 20.0;          // from start to ready
   double grace_period_s = 5.0;          // from terminate to kill
@@ -29,7 +30,7 @@ struct Ready {
 };
 struct Beat {
   std::string name;
-  long num_done = 0;     // frames finished
+  long num_done = 0;     // grows with each frame that is finished or given out
   bool is_busy = false;  // a frame is begun or waits
 };
 struct Exited {
@@ -80,7 +81,14 @@ struct EndSuccessor {  // at once
 struct Promote {  // the successor to the process that it follows, which has ended
   std::string name;
 };
-using Action = std::variant<Start, Terminate, Kill, Say, StartSuccessor, EndSuccessor, Promote>;
+struct Adopt {  // what was promoted: it will not be reverted any more
+  std::string name;
+};
+struct Revert {  // to what was there before the successor, which has ended; Start follows
+  std::string name;
+};
+using Action =
+    std::variant<Start, Terminate, Kill, Say, StartSuccessor, EndSuccessor, Promote, Adopt, Revert>;
 
 // Of a process. Pausing: it starts again in a moment. Stopped: a user asked for it. Ended: for
 // good.
@@ -106,7 +114,8 @@ bool Lives(State state);
 // its way. A process that fails starts again as its rule says, except after exit code 2, which says
 // that it never can. The run ends when all sources have ended, when a required process has failed
 // for good, or on a signal. A swap ends a process when its successor has heard a whole frame, and
-// promotes that when it has ended; what goes wrong before leaves the old one where it is.
+// promotes that when it has ended; what goes wrong before leaves the old one where it is, and when
+// the new one ends before its first frame the old one starts again.
 class Supervisor {
  public:
   // is_finite: the graph is run over recordings, so a signal cuts it short. nodes must have unique
@@ -169,6 +178,8 @@ class Supervisor {
   void KillNow(Process* process, double now_s);
   void BeginSwap(Process* process, double now_s);
   void PromoteNow(Process* process, double now_s);
+  void AdoptNow(Process* process);
+  void RevertNow(Process* process, const Exited& event, double now_s);
   void CancelSwap(Process* process);
 
   // Ends a process that gets nowhere; its rule says what then.

@@ -28,9 +28,47 @@ TEST(SupervisorSwapTest, EndsTheOldWhenTheNewHasAWholeFrameAndPromotesItThen) {
               ElementsAre("stop filter"));
   EXPECT_THAT(Words(supervisor.Handle(Exited{"filter", 0}, 4.1)), ElementsAre("promote filter"));
   EXPECT_EQ(supervisor.state("filter"), State::kRunning);
+  EXPECT_THAT(Words(supervisor.Handle(Beat{"filter", 0, true}, 4.2)), IsEmpty());
+  EXPECT_TRUE(supervisor.is_swapping("filter"));
+  EXPECT_THAT(Words(supervisor.Handle(Beat{"filter", 1, true}, 4.3)), ElementsAre("adopt filter"));
   EXPECT_EQ(supervisor.num_swaps("filter"), 1);
   EXPECT_EQ(supervisor.num_restarts("filter"), 0);
   EXPECT_FALSE(supervisor.is_swapping("filter"));
+}
+
+// camera -> filter, where another filter has taken over at 4 s.
+Supervisor OnTrial() {
+  Supervisor supervisor = Swapping();
+  supervisor.Handle(SuccessorBeat{"filter", true}, 3.0);
+  EXPECT_THAT(Words(supervisor.Handle(Exited{"filter", 0}, 4.0)), ElementsAre("promote filter"));
+  return supervisor;
+}
+
+TEST(SupervisorSwapTest, StartsTheOldAgainWhenTheNewEndsBeforeItsFirstFrame) {
+  Supervisor supervisor = OnTrial();
+  EXPECT_THAT(Words(supervisor.Handle(Exited{"filter", 2, false, "exit code 2"}, 4.5)),
+              ElementsAre("say the successor of filter ended with exit code 2 before its first "
+                          "frame; filter starts again as it was",
+                          "revert filter", "start filter"));
+  EXPECT_EQ(supervisor.num_swaps("filter"), 0);
+  EXPECT_FALSE(supervisor.is_swapping("filter"));
+  EXPECT_EQ(supervisor.exit_code(), 0);
+}
+
+TEST(SupervisorSwapTest, TakesTheNewForGoodWhereNoFrameComes) {
+  Supervisor supervisor = OnTrial();
+  EXPECT_THAT(Words(supervisor.Handle(TimePassed{}, 7.1)), ElementsAre("adopt filter"));
+  EXPECT_EQ(supervisor.num_swaps("filter"), 1);
+  supervisor.Handle(Exited{"filter", 1, true, "signal 11"}, 7.2);
+  EXPECT_EQ(supervisor.exit_code(), 1);
+}
+
+TEST(SupervisorSwapTest, TakesTheNewForGoodWhenAUserOrTheEndOfTheRunStopsIt) {
+  Supervisor stopped = OnTrial();
+  EXPECT_THAT(Words(stopped.Handle(Asked{Asked::Verb::kStop, "filter"}, 4.5)),
+              ElementsAre("adopt filter", "stop filter"));
+  Supervisor ended = OnTrial();
+  EXPECT_EQ(Words(ended.Handle(Interrupted{15}, 4.5)).at(1), "adopt filter");
 }
 
 TEST(SupervisorSwapTest, WaitsForNoFrameForEverWhereNoneComes) {

@@ -39,23 +39,11 @@ void Supervisor::CheckHangs(double now_s) {
   });
 }
 
-void Supervisor::CheckSwaps(double now_s) {
-  ForEachInOrder([&](Process& process) {
-    const double limit_s = process.node.start_limit_s;
-    if (process.succession.is_late(limit_s, now_s)) {
-      Tell("the successor of " + process.node.name + " is not ready " + Seconds(limit_s) +
-           " after its start; " + process.node.name + " goes on");
-      CancelSwap(&process);
-    }
-    if (process.state != State::kRunning || !process.succession.is_due(now_s)) return;
-    process.succession.TakeOver(now_s);
-    TerminateNow(&process, Then::kPromote, now_s);
-  });
-}
-
 void Supervisor::GiveUp(Process* process, const std::string& why, double now_s) {
   const Node& node = process->node;
-  if (node.is_required && node.restart.when == RestartRule::When::kNever) {
+  const bool may_start_again =
+      node.restart.when != RestartRule::When::kNever || process->succession.is_on_trial();
+  if (node.is_required && !may_start_again) {
     return Fail(1, node.name + why);
   }
   Tell(node.name + why);

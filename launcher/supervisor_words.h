@@ -15,6 +15,8 @@ inline std::string Words(const Action& action) {
   if (const auto* next = std::get_if<StartSuccessor>(&action)) return "prepare " + next->name;
   if (const auto* next = std::get_if<EndSuccessor>(&action)) return "drop " + next->name;
   if (const auto* next = std::get_if<Promote>(&action)) return "promote " + next->name;
+  if (const auto* adopted = std::get_if<Adopt>(&action)) return "adopt " + adopted->name;
+  if (const auto* reverted = std::get_if<Revert>(&action)) return "revert " + reverted->name;
   return "say " + std::get<Say>(action).text;
 }
 

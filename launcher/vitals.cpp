@@ -10,6 +10,7 @@ namespace declutter::launcher {
 namespace {
 
 constexpr double kLookPeriod_s = 1.0;
+constexpr double kMinRatePeriod_s = 0.5;
 
 // Processor time used so far [s]; 0 where it cannot be read.
 double CpuSeconds(pid_t pid) {
@@ -32,18 +33,15 @@ double ResidentMegabytes(pid_t pid) {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-int64_t NumFrames(const module_status_t& status) {
-  return status.num_in > 0 ? status.num_done : status.num_out;
-}
-
 }  // namespace
 
 void Vitals::Hear(const module_status_t& status) {
   const double passed_s = static_cast<double>(status.utime - status_.utime) * 1e-6;
-  const bool is_next = status.pid == status_.pid && passed_s > 0.0;
-  const auto num_new = static_cast<double>(NumFrames(status) - NumFrames(status_));
-  rate_hz_ = is_next ? num_new / passed_s : 0.0;
-  const std::string message = is_next ? status_.message : "";
+  const bool is_same = status.pid == status_.pid;
+  const auto num_new = static_cast<double>(status.num_out - status_.num_out);
+  // The last status of a process comes at any time after the one before.
+  if (passed_s >= kMinRatePeriod_s || !is_same) rate_hz_ = is_same ? num_new / passed_s : 0.0;
+  const std::string message = is_same ? status_.message : "";
   status_ = status;
   if (status_.message.empty()) status_.message = message;  // the last one stays to be read
 }
@@ -64,6 +62,7 @@ ProcessStatus Vitals::Report() const {
   report.set_pid(pid_ > 0 ? pid_ : 0);
   report.set_load(load_);
   report.set_memory_mb(memory_mb_);
+  if (status_.utime == 0) return report;  // it has not said anything yet, or never does
   report.set_num_in(status_.num_in);
   report.set_num_out(status_.num_out);
   report.set_num_skipped(status_.num_skipped);
@@ -71,6 +70,8 @@ ProcessStatus Vitals::Report() const {
   report.set_rate_hz(rate_hz_);
   report.set_processing_ms(status_.processing_ms);
   report.set_max_processing_ms(status_.max_processing_ms);
+  report.set_latency_ms(status_.latency_ms);
+  report.set_max_latency_ms(status_.max_latency_ms);
   report.set_message(status_.message);
   return report;
 }

@@ -37,9 +37,10 @@ Publications CollectPublishers(const std::vector<WiredModule>& modules,
 }
 
 void CheckInput(const WiredModule& module, const Port& input, const Publications& publications,
-                std::vector<Fault>* faults) {
+                const std::set<std::string>& external, std::vector<Fault>* faults) {
   if (IsShared(input)) return;
   const auto found = publications.find(input.channel);
+  if (found == publications.end() && external.count(input.channel) != 0) return;
   if (found == publications.end()) {
     std::vector<std::string> channels;
     for (const auto& [channel, publication] : publications) channels.push_back(channel);
@@ -55,7 +56,8 @@ void CheckInput(const WiredModule& module, const Port& input, const Publications
                                        " publishes " + publication.port->type});
 }
 
-// The modules on a cycle, in the direction of the messages, beginning and ending with the same.
+// The modules on a cycle, each before those that must be ready first, beginning and ending with the
+// same.
 std::optional<std::vector<size_t>> FindCycle(const std::vector<WiredModule>& modules, size_t index,
                                              std::vector<size_t>* path,
                                              std::vector<bool>* is_done) {
@@ -67,7 +69,7 @@ std::optional<std::vector<size_t>> FindCycle(const std::vector<WiredModule>& mod
   }
   if ((*is_done)[index]) return std::nullopt;
   path->push_back(index);
-  for (const size_t next : Downstream(modules, index)) {
+  for (const size_t next : Predecessors(modules, index)) {
     if (auto cycle = FindCycle(modules, next, path, is_done)) return cycle;
   }
   path->pop_back();
@@ -96,11 +98,28 @@ void Print(const std::vector<Fault>& faults) {
   }
 }
 
-std::vector<Fault> CheckWiring(const std::vector<WiredModule>& modules) {
+std::set<std::string> Unpublished(const std::vector<WiredModule>& modules) {
+  std::vector<Fault> ignored;
+  const Publications publications = CollectPublishers(modules, &ignored);
+  std::set<std::string> unpublished;
+  for (const WiredModule& module : modules) {
+    for (const Port& input : module.inputs) {
+      if (!IsShared(input) && publications.count(input.channel) == 0) {
+        unpublished.insert(input.channel);
+      }
+    }
+  }
+  return unpublished;
+}
+
+std::vector<Fault> CheckWiring(const std::vector<WiredModule>& modules,
+                               const std::set<std::string>& external) {
   std::vector<Fault> faults;
   const Publications publications = CollectPublishers(modules, &faults);
   for (const WiredModule& module : modules) {
-    for (const Port& input : module.inputs) CheckInput(module, input, publications, &faults);
+    for (const Port& input : module.inputs) {
+      CheckInput(module, input, publications, external, &faults);
+    }
   }
   CheckCycles(modules, &faults);
   return faults;
@@ -119,6 +138,17 @@ std::vector<size_t> Downstream(const std::vector<WiredModule>& modules, size_t i
     if (consumes) downstream.push_back(i);
   }
   return downstream;
+}
+
+std::vector<size_t> Predecessors(const std::vector<WiredModule>& modules, size_t index) {
+  std::vector<size_t> predecessors = Downstream(modules, index);
+  const std::vector<std::string>& after = modules[index].after;
+  for (size_t i = 0; i < modules.size(); ++i) {
+    const bool is_named = std::count(after.begin(), after.end(), modules[i].name) != 0;
+    const bool is_new = std::count(predecessors.begin(), predecessors.end(), i) == 0;
+    if (is_named && is_new) predecessors.push_back(i);
+  }
+  return predecessors;
 }
 
 bool IsSource(const WiredModule& module) {

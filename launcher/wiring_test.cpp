@@ -49,11 +49,34 @@ TEST(WiringTest, FindsAChannelThatNothingPublishesAndTheNameMeant) {
                           "mean 'DEPTH_FRAMES'?"));
 }
 
+TEST(WiringTest, AcceptsAChannelThatComesFromOutside) {
+  const std::vector<WiredModule> modules = {{"filter", "g:2:1", {kDepth}, {kTable}}};
+  EXPECT_THAT(Unpublished(modules), ElementsAre("DEPTH_FRAME"));
+  EXPECT_THAT(CheckWiring(modules, {"DEPTH_FRAME"}), IsEmpty());
+  EXPECT_THAT(CheckWiring(modules, {"TABLETOP"}), testing::SizeIs(1));
+}
+
 TEST(WiringTest, FindsAChannelWithTwoTypes) {
   EXPECT_THAT(Texts(CheckWiring({{"source", "g:1:1", {}, {{"TABLETOP", "depth_frame_t"}}},
                                  {"estimator", "g:2:1", {kTable}, {}}})),
               ElementsAre("g:2:1: estimator consumes tabletop_t on TABLETOP, where source "
                           "publishes depth_frame_t"));
+}
+
+TEST(WiringTest, StartsAModuleAfterThoseThatItSendsToAndThoseThatTheGraphNames) {
+  const std::vector<WiredModule> modules = {{"source", "g:1:1", {}, {kDepth}},
+                                            {"filter", "g:2:1", {kDepth}, {}, {"viewer"}},
+                                            {"viewer", "g:3:1", {kDepth}, {}}};
+  EXPECT_THAT(CheckWiring(modules), IsEmpty());
+  EXPECT_THAT(Predecessors(modules, 0), ElementsAre(1, 2));
+  EXPECT_THAT(Predecessors(modules, 1), ElementsAre(2));
+  EXPECT_THAT(Downstream(modules, 1), IsEmpty());
+}
+
+TEST(WiringTest, FindsACycleOfModulesThatWaitForEachOther) {
+  EXPECT_THAT(Texts(CheckWiring({{"source", "g:1:1", {}, {kDepth}},
+                                 {"filter", "g:2:1", {kDepth}, {}, {"source"}}})),
+              ElementsAre("g:1:1: a cycle: source -> filter -> source"));
 }
 
 TEST(WiringTest, FindsACycle) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Kills what a robot runs, again and again, and prints how long it was away:
 #   tests/soak_kills.sh COUNT NAME     NAME: a module, logger or launcher
+# Ends with 1 when it was once away for longer than 1 s, or the next result took longer than 2 s.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -9,7 +10,8 @@ work=$(mktemp -d)
 trap 'stop_graph; rm -rf "$work"' EXIT
 launcher_pid=
 
-# The robot's graph with the synthetic sensor, and results in a file.
+# The robot's graph with the synthetic sensor, and results in a file. The sensor has a single image:
+# to render more takes time whenever it is opened, which a real one does not need.
 start_graph() {
   rm -rf "$work/logs" "$work/objects"
   cat >"$work/graph.textproto" <<END
@@ -17,11 +19,12 @@ include: "$PWD/config/robot.textproto"
 logger { min_free_mb: 64 }
 module { name: "object_exporter" disabled: false restart: "on_failure" }
 END
+  echo "scene: \"$PWD/config/scenes/demo.textproto\" num_images: 1" >"$work/sensor.textproto"
   "$launcher" run "$work/graph.textproto" --log_dir "$work/logs" \
-    --set kinect_source.input="live:synthetic:$PWD/config/demo_sensor.textproto" \
+    --set kinect_source.input="live:synthetic:$work/sensor.textproto" \
     --set object_exporter.output="$work/objects" 2>"$work/stderr" &
   launcher_pid=$!
-  wait_until has_new_result
+  wait_until has_result_since 0
 }
 
 stop_graph() {
@@ -36,9 +39,15 @@ processes() { pgrep --full --list-full -- "$work/logs/" || true; }
 
 pid_of() { processes | awk -v name="$1" '$2 ~ "/" name "$" && !/ --describe/ { print $1 }'; }
 
-num_results() { cat "$work/objects/objects.jsonl" 2>/dev/null | wc -l; }
+# When the sensor took the last frame that there is a result of, in microseconds.
+last_result() {
+  local line
+  line=$(tail -n 1 "$work/objects/objects.jsonl" 2>/dev/null | grep -o '"utime":[0-9]*') || true
+  echo "${line##*:}"
+}
 
-has_new_result() { (($(num_results) > ${old_results:-0})); }
+# Of what the sensor saw since then: what was on its way past a process that is killed does not count.
+has_result_since() { (($(last_result) + 0 > $1)); }
 
 is_back() { new_pid=$(pid_of "$1") && [[ -n "$new_pid" && "$new_pid" != "$old_pid" ]]; }
 
@@ -58,10 +67,19 @@ wait_until() {
 
 now() { echo "${EPOCHREALTIME/./}"; }
 
-# Median and largest of the numbers on stdin, in microseconds, as seconds.
+# Median and largest of the microseconds in file $1, and how many are no more than $2 s, as text; 1
+# when not all are.
 summary() {
-  sort -n | awk '{ t[NR] = $1 / 1e6 }
-    END { printf "median %.2f s, longest %.2f s", t[int((NR + 1) / 2)], t[NR] }'
+  sort -n "$1" | awk -v limit="$2" '{ t[NR] = $1 / 1e6; good += t[NR] <= limit }
+    END { printf "median %.2f s, longest %.2f s, %d of %d within %d s", t[int((NR + 1) / 2)], t[NR],
+                 good, NR, limit
+          exit good < NR }'
+}
+
+report() { # text, file, limit in s
+  local text
+  text=$(summary "$2" "$3") || code=1
+  echo "$1 $text"
 }
 
 # A module is killed: until it is there again, and until the next result.
@@ -71,18 +89,18 @@ kill_module() {
   start_graph
   for ((i = 0; i < count; ++i)); do
     old_pid=$(pid_of "$name")
+    [[ -n "$old_pid" ]] || { echo "soak_kills.sh: no module $name runs" >&2; exit 2; }
     begin=$(now)
     kill -9 "$old_pid"
     wait_until is_back "$name"
     echo $(($(now) - begin)) >>"$work/back"
-    old_results=$(num_results)
-    wait_until has_new_result
+    wait_until has_result_since "$begin"
     echo $(($(now) - begin)) >>"$work/result"
-    old_results=0
     sleep 1.2  # longer than the ten delays after which it counts as well again
   done
   stop_graph
-  echo "$name killed $count times: back $(summary <"$work/back"); next result $(summary <"$work/result")"
+  report "$name killed $count times: back" "$work/back" 1
+  report "  next result" "$work/result" 2
 }
 
 # lcm-logger is killed: until the next file has messages.
@@ -99,7 +117,7 @@ kill_logger() {
     sleep 1.2
   done
   stop_graph
-  echo "lcm-logger killed $count times: recording again $(summary <"$work/back")"
+  report "lcm-logger killed $count times: recording again" "$work/back" 2
 }
 
 # The launcher is killed: until none of its processes is left.
@@ -115,13 +133,16 @@ kill_launcher() {
     echo $(($(now) - begin)) >>"$work/gone"
     launcher_pid=
   done
-  echo "launcher killed $count times: nothing left after $(summary <"$work/gone")"
+  report "launcher killed $count times: nothing left" "$work/gone" 1
 }
 
-(($# == 2)) || { echo "soak_kills.sh: COUNT and NAME are needed" >&2; exit 2; }
+[[ $# == 2 && "$1" =~ ^[1-9][0-9]*$ ]] ||
+  { echo "soak_kills.sh: COUNT and NAME are needed" >&2; exit 2; }
 count=$1
+code=0
 case "$2" in
   logger) kill_logger ;;
   launcher) kill_launcher ;;
   *) kill_module "$2" ;;
 esac
+exit "$code"

@@ -43,6 +43,9 @@ class Publisher {
 // The constructor of a module subscribes and advertises; it must not touch the outside world,
 // because --describe constructs the module too. All handlers run on one thread, one at a time.
 //
+// A module subscribes in the order in which a frame's messages come: what its last subscription
+// delivers is the end of the frame, as the status counts it.
+//
 // What a handler throws as std::runtime_error counts its frame as rejected; ConfigError ends the
 // process with 2; anything else (std::logic_error: our own bug) ends it with 1.
 class Bus {
@@ -67,7 +70,7 @@ class Bus {
 
   // For sources: poll returns the seconds until it wants to be called again (0: at once; messages
   // that arrived are handled in between), or nullopt when the source is finished and the process
-  // should end.
+  // should end. It should not take longer than a second: the launcher ends what hangs in it.
   void Poll(std::function<std::optional<double>()> poll);
 
   // True in a run over recordings, where no frame may be skipped.

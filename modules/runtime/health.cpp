@@ -4,6 +4,11 @@
 
 namespace declutter::runtime {
 
+void Health::Arrived(std::int64_t utime, double now_ms) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frame_times_.Begin(utime, now_ms);
+}
+
 void Health::Took() {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++num_in_;
@@ -23,10 +28,27 @@ void Health::Done() {
   ++num_done_;
 }
 
-void Health::Published(std::int64_t utime) {
+void Health::Published(std::int64_t utime, double now_ms) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++num_out_;
+  frame_times_.Begin(utime, now_ms);
+  CountOut(utime);
   last_utime_ = utime;
+}
+
+void Health::Ended(std::int64_t utime, double now_ms) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frame_times_.End(utime, now_ms);
+}
+
+void Health::GaveOut(std::int64_t utime) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  CountOut(utime);
+}
+
+// The messages of one frame follow each other.
+void Health::CountOut(std::int64_t utime) {
+  if (num_out_ == 0 || utime != last_out_utime_) ++num_out_;
+  last_out_utime_ = utime;
 }
 
 void Health::Skipped(std::int64_t num_frames) {
@@ -60,6 +82,9 @@ module_status_t Health::Report() {
   status.last_utime = last_utime_;
   status.processing_ms = num_timed_ > 0 ? processing_ms_ / num_timed_ : 0;
   status.max_processing_ms = max_processing_ms_;
+  const FrameTimes::Latency latency = frame_times_.Take();
+  status.latency_ms = latency.median_ms;
+  status.max_latency_ms = latency.max_ms;
   status.message = complaint_.empty() ? trouble_ : complaint_;
   num_timed_ = 0;
   processing_ms_ = 0;

@@ -33,12 +33,13 @@ constexpr int kClean = 0;
 constexpr int kFailure = 1;
 constexpr int kBadConfig = 2;
 
-// The last line of defence against input that makes a process allocate without end.
+// The last line of defence against input that makes a process allocate without end. A limit that
+// was set for this process counts instead.
 void LimitMemory() {
 #ifndef __SANITIZE_ADDRESS__
   constexpr rlim_t kMaxBytes = rlim_t{4} << 30;
   rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur <= kMaxBytes) return;
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return;
   limit.rlim_cur = kMaxBytes;
   setrlimit(RLIMIT_AS, &limit);
 #endif

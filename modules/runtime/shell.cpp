@@ -22,8 +22,11 @@ constexpr std::size_t kMaxKeptParts = 64;
 // A lossless source keeps one frame in flight; this is for publishers that do not.
 constexpr std::size_t kMaxWaiting = 1024;
 
-double MillisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+// A sensor gives its next frame much earlier.
+constexpr double kLongPollMs = 900;
+
+double Milliseconds() {
+  return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count();
 }
 
 std::int64_t WallClockUtime() {
@@ -73,7 +76,7 @@ void Shell::Publish(const std::string& channel, const Bytes& message) {
     return;
   }
   if (sink_) sink_(channel, message);
-  health_.Published(UtimeOf(message.data()));
+  health_.Published(UtimeOf(message.data()), Milliseconds());
 }
 
 void Shell::Warn(const std::string& cause, const std::string& text) {
@@ -126,6 +129,7 @@ void Shell::Accept(std::size_t index, std::size_t port, const std::uint8_t* data
   Subscription& subscription = subscriptions_[index];
   subscription.layouts[port]->Locate(data, size);
   const std::int64_t utime = UtimeOf(data);
+  health_.Arrived(utime, Milliseconds());
   Part part = std::make_shared<const Bytes>(data, data + size);
   if (subscription.ports.size() == 1) {
     if (!inbox_.Put({index, utime, {std::move(part)}})) Skip(1);
@@ -146,16 +150,23 @@ void Shell::Accept(std::size_t index, std::size_t port, const std::uint8_t* data
 void Shell::Handle(const Delivery& delivery) {
   const Subscription& subscription = subscriptions_[delivery.subscription];
   health_.Took();
-  const Clock::time_point start = Clock::now();
+  const double start_ms = Milliseconds();
   try {
     subscription.handler(delivery.parts);
-    health_.Handled(delivery.utime, MillisecondsSince(start));
+    const double now_ms = Milliseconds();
+    health_.Handled(delivery.utime, now_ms - start_ms);
+    if (delivery.subscription + 1 == subscriptions_.size()) EndFrame(delivery.utime, now_ms);
   } catch (const ConfigError&) {
     throw;
   } catch (const std::runtime_error& error) {
     Reject(subscription.ports.back().channel, error.what());
   }
   health_.Done();
+}
+
+void Shell::EndFrame(std::int64_t utime, double now_ms) {
+  health_.Ended(utime, now_ms);
+  if (outputs_.empty()) health_.GaveOut(utime);
 }
 
 void Shell::Start() {
@@ -165,7 +176,9 @@ void Shell::Start() {
 bool Shell::PollOnce(Clock::time_point* next) {
   // Waiting longer than an hour at once gains nothing, and keeps the sum within the clock's range.
   constexpr double kLongestWaitS = 3600;
+  poll_since_ms_ = Milliseconds();
   const std::optional<double> wait_s = poll_();
+  poll_since_ms_ = 0;
   if (!wait_s) return false;
   const std::chrono::duration<double> wait(std::clamp(*wait_s, 0.0, kLongestWaitS));
   *next = Clock::now() + std::chrono::duration_cast<Clock::duration>(wait);
@@ -198,7 +211,9 @@ void Shell::PublishStatus(State state) {
   status.version = DECLUTTER_VERSION;
   status.pid = getpid();
   status.state = static_cast<std::int8_t>(state);
-  status.num_waiting = static_cast<std::int32_t>(inbox_.size());
+  const double since_ms = poll_since_ms_;
+  const bool is_held = since_ms > 0 && Milliseconds() - since_ms > kLongPollMs;
+  status.num_waiting = static_cast<std::int32_t>(inbox_.size()) + (is_held ? 1 : 0);
   Bytes message(static_cast<std::size_t>(status.getEncodedSize()));
   const int size = status.encode(message.data(), 0, static_cast<int>(message.size()));
   if (size < 0) throw std::logic_error("status does not encode");

@@ -105,6 +105,7 @@ class Shell {
   void Accept(std::size_t subscription, std::size_t port, const std::uint8_t* data,
               std::size_t size);
   void Handle(const Delivery& delivery);
+  void EndFrame(std::int64_t utime, double now_ms);
   void Skip(std::int64_t num_frames);
   bool PollOnce(std::chrono::steady_clock::time_point* next);
 
@@ -122,6 +123,7 @@ class Shell {
   std::atomic<bool> failed_{false};
   std::optional<std::map<std::string, std::set<std::int64_t>>> expected_;
   std::int64_t num_left_out_ = 0;
+  std::atomic<double> poll_since_ms_{0};  // 0: none is under way
 };
 
 }  // namespace declutter::runtime

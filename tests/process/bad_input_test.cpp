@@ -18,6 +18,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::MatchesRegex;
 using testing::SizeIs;
 
 constexpr const char* kCamera =
@@ -68,7 +69,7 @@ class BadInputTest : public GraphRun {
   void ExpectNothingFound(const std::string& scene) {
     const Outcome outcome = Run(scene, output_);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, IsEmpty());
+    EXPECT_THAT(outcome.err, MatchesRegex("launcher: [^\n]*\n"));
     const std::vector<json> lines = Lines(output_);
     ASSERT_THAT(lines, SizeIs(1));
     EXPECT_FALSE(lines[0].contains("error"));

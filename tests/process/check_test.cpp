@@ -141,6 +141,17 @@ TEST_F(CheckTest, RefusesAChannelThatARemapLeavesWithoutPublisher) {
                                               "publishes"));
 }
 
+TEST_F(CheckTest, RefusesToStartAModuleAfterOneThatIsNotThereOrThatWaitsForIt) {
+  const std::string unknown = FakeGraph(folder_, "after: \"fliter\"", "");
+  EXPECT_EQ(Check(unknown).err, unknown +
+                                    ":3:1: after: no module or group named 'fliter'; did "
+                                    "you mean 'filter'?\n");
+  const std::string cycle = FakeGraph(folder_, "", "after: \"source\"");
+  EXPECT_EQ(Check(cycle).err, cycle + ":2:1: a cycle: source -> filter -> source\n");
+  const std::string in_order = FakeGraph(folder_, "after: \"filter\"", "");
+  EXPECT_EQ(Check(in_order).code, 0);
+}
+
 TEST_F(CheckTest, NamesTheAssignmentThatIsWrong) {
   const std::string graph = FakeGraph(folder_, "", "");
   const auto error = [&](const std::string& assignment) {

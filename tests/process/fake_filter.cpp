@@ -30,9 +30,8 @@ class FakeFilter {
   }
 
   void Answer(const depth_frame_t& frame, runtime::Bus& bus) {
-    // A camera's frame may be skipped: then it is one of the next.
-    constexpr int64_t kNext = 25;
-    if (frame.utime >= config_.at_frame() && frame.utime < config_.at_frame() + kNext) {
+    if (frame.utime >= config_.at_frame() &&
+        frame.utime < config_.at_frame() + config_.num_frames()) {
       if (config_.mishap() == "crashes") std::raise(SIGSEGV);
       if (config_.mishap() == "refuses") throw runtime::ConfigError("not with these parameters");
       if (config_.mishap() == "fills_stdout") {

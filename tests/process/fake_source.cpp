@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include "modules/runtime/run.h"
 #include "tests/process/fake.pb.h"
 
@@ -26,6 +28,7 @@ class FakeSource {
     }
     depth_frame_t frame = {};
     frame.utime = ++sent_;
+    while (sent_ == config_.stuck_at()) pause();
     frame.num_bytes = config_.num_bytes();
     frame.data.resize(static_cast<size_t>(config_.num_bytes()));
     depth_.Publish(frame);

@@ -129,6 +129,18 @@ TEST_F(GraphTest, WritesTheSameLinesForTheSameScenesAndForTheirLog) {
   EXPECT_EQ(ReadFile(folder_.Path("late/objects.jsonl")), lines);
 }
 
+TEST_F(GraphTest, ReplaysALogWithTheParametersOfTheRobot) {
+  const std::string log = folder_.Path("run.lcm");
+  ASSERT_EQ(Run(RenderScene("a"), output_, {"--record", log}).code, 0);
+  graph_ = "replay.textproto";
+  const Outcome outcome = Run("", folder_.Path("replayed"), {"--replay", log});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(ReadFile(folder_.Path("replayed/objects.jsonl")), ReadFile(output_ + "/objects.jsonl"));
+  const Outcome without_log = Run("", output_);
+  EXPECT_EQ(without_log.code, 2);
+  EXPECT_THAT(without_log.err, testing::HasSubstr("kinect_source.input must be set"));
+}
+
 TEST_F(GraphTest, RunsWithTheFeaturesOfThePaper) {
   graph_ = "paper_mode.textproto";
   const Outcome outcome = Run(RenderScene("one"), output_);

@@ -28,6 +28,7 @@ TemporaryFolder::TemporaryFolder() {
 TemporaryFolder::~TemporaryFolder() { fs::remove_all(path_); }
 
 std::string TemporaryFolder::Write(const std::string& name, const std::string& text) const {
+  fs::remove(Path(name));  // to empty a file makes some disks wait, to make another does not
   std::ofstream(Path(name)) << text;
   return Path(name);
 }

@@ -8,8 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/process/fake_graph.h"
-#include "tests/process/launched.h"
+#include "tests/process/fake_run.h"
 
 namespace declutter {
 namespace {
@@ -20,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // A camera of 50 Hz, a filter and a logger in the graph.
-class LoggerTest : public testing::Test {
+class LoggerTest : public FakeRun {
  protected:
   std::string Graph(const std::string& logger_fields) {
     const std::string graph = LiveGraph(folder_, "", "");
@@ -28,23 +27,29 @@ class LoggerTest : public testing::Test {
                          "include: \"graph.textproto\"\nlogger { " + logger_fields + " }");
   }
 
-  std::vector<std::string> Command(const std::string& graph) const {
-    return {LAUNCHER, "run", graph, "--log_dir", folder_.Path("logs")};
-  }
-
   std::string File(int number) const {
     return folder_.Path("logs/latest/run.lcmlog.0" + std::to_string(number));
+  }
+
+  // To be called in a child: its logs are on a disk of their own, of that size.
+  std::function<void()> WithDiskOf(const std::string& size) const {
+    fs::create_directory(folder_.Path("logs"));
+    return [=, uid = getuid(), gid = getgid()] {
+      if (unshare(CLONE_NEWNS) != 0) {
+        if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) _exit(99);
+        std::ofstream("/proc/self/setgroups") << "deny";
+        std::ofstream("/proc/self/uid_map") << uid << " " << uid << " 1";
+        std::ofstream("/proc/self/gid_map") << gid << " " << gid << " 1";
+      }
+      mount("", "/", "", MS_REC | MS_PRIVATE, "");
+      const std::string options = "size=" + size;
+      if (mount("tmpfs", folder_.Path("logs").c_str(), "tmpfs", 0, options.c_str()) != 0) _exit(99);
+    };
   }
 
   static bool HasFrames(const std::string& file, size_t num) {
     return Eventually([&] { return UtimesOf("OBJECTS", file).size() >= num; });
   }
-
-  void TearDown() override {
-    EXPECT_TRUE(Eventually([this] { return ProcessesWith(folder_.Path("")).empty(); }));
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(LoggerTest, RecordsTheRunWithWhatMadeItToTheLastMessage) {
@@ -104,19 +109,7 @@ TEST_F(LoggerTest, SaysBeforeTheRunThatTheDiskIsFull) {
 }
 
 TEST_F(LoggerTest, EndsTheLogWholeWhenTheDiskFillsAndTheGraphGoesOn) {
-  const std::string graph = Graph("min_free_mb: 4");
-  fs::create_directory(folder_.Path("logs"));
-  const auto use_small_disk = [&, uid = getuid(), gid = getgid()] {
-    if (unshare(CLONE_NEWNS) != 0) {
-      if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) _exit(99);
-      std::ofstream("/proc/self/setgroups") << "deny";
-      std::ofstream("/proc/self/uid_map") << uid << " " << uid << " 1";
-      std::ofstream("/proc/self/gid_map") << gid << " " << gid << " 1";
-    }
-    mount("", "/", "", MS_REC | MS_PRIVATE, "");
-    if (mount("tmpfs", folder_.Path("logs").c_str(), "tmpfs", 0, "size=12m") != 0) _exit(99);
-  };
-  Launched launcher(Command(graph), folder_, use_small_disk);
+  Launched launcher(Command(Graph("min_free_mb: 4")), folder_, WithDiskOf("12m"));
   const std::string root = "/proc/" + std::to_string(launcher.pid()) + "/root";
   const std::string file = root + File(0);
   if (!HasFrames(file, 10)) {
@@ -135,6 +128,16 @@ TEST_F(LoggerTest, EndsTheLogWholeWhenTheDiskFillsAndTheGraphGoesOn) {
   const Outcome outcome = launcher.Wait();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("the graph goes on without it"));
+}
+
+TEST_F(LoggerTest, SaysThatWhatAModulePrintsIsLostWhenTheDiskIsFullAndGoesOn) {
+  const std::string graph =
+      FakeGraph(folder_, SourceConfig("num_frames: 1"), FilterConfig("mishap: \"fills_stdout\""));
+  const Outcome outcome = Launched(Command(graph), folder_, WithDiskOf("2m")).Wait();
+  if (outcome.code == 99) GTEST_SKIP() << "no mounts here";
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("/filter.log: No space left on device; what its process "
+                                     "prints is lost"));
 }
 
 }  // namespace

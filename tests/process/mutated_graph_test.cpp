@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
 #include "launcher/load_graph.h"
 #include "tests/process/fake_graph.h"
@@ -52,25 +53,47 @@ std::string Mutated(std::string text, std::mt19937* random) {
 
 TEST(MutatedGraphTest, TenThousandBrokenGraphsGiveOnlyPlacesAndReasons) {
   const TemporaryFolder folder;
-  const std::string good = ReadFile(
-      FakeGraph(folder, "restart: \"always\" env: \"A=1\" cpu: 0 " + SourceConfig("num_frames: 7"),
-                "remap { from: \"OBJECTS\" to: \"OBJECTS\" } grace_period_s: 2.5 " +
-                    FilterConfig("mishap: \"crashes\"\n at_frame: 3")));
+  // A graph with all that one can say, the graph that it includes, and parameters in a file.
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"graph.textproto",
+       "include: \"included.textproto\"\nlossless: true\n" +
+           Block(
+               "filter", "fake_filter",
+               "remap { from: \"OBJECTS\" to: \"OBJECTS\" } grace_period_s: 2.5 after: \"last\" " +
+                   FilterConfig("mishap: \"crashes\"\n at_frame: 3")) +
+           "logger { name: \"run\" split_mb: 10 }\nmodule { name: \"source\" nice: 3 }\n"},
+      {"included.textproto",
+       Block("source", "fake_source",
+             "restart: \"always\" env: \"A=1\" cpu: 0 config_file: \"source.textproto\" " +
+                 SourceConfig("num_frames: 7")) +
+           Block("other", "fake_filter",
+                 "group: \"last\" remap { from: \"OBJECTS\" to: \"MORE\" }")},
+      {"source.textproto", "num_frames: 9\nperiod_s: 0.5\nfails: true\n"}};
+  for (const auto& [name, text] : files) folder.Write(name, text);
   google::protobuf::SetLogHandler(KeepPrinted);
   launcher::ProgramCatalog catalog;
+  const auto load = [&](std::vector<Fault>* faults) {
+    return launcher::LoadGraph(folder.Path("graph.textproto"), {}, {}, &catalog, faults)
+        .has_value();
+  };
+  std::vector<Fault> none;
+  ASSERT_TRUE(load(&none)) << none.at(0).what;
   std::mt19937 random(1);
   int num_refused = 0;
   for (int i = 0; i < 10'000; ++i) {
+    const auto& [name, good] = files[random() % files.size()];
     const std::string text = Mutated(good, &random);
-    const std::string path = folder.Write("mutated.textproto", text);
+    folder.Write(name, text);
     std::vector<Fault> faults;
-    const auto graph = launcher::LoadGraph(path, {}, {}, &catalog, &faults);
-    ASSERT_NE(graph.has_value(), !faults.empty()) << text;
-    num_refused += graph ? 0 : 1;
+    const bool is_good = load(&faults);
+    ASSERT_EQ(is_good, faults.empty()) << text;
+    num_refused += is_good ? 0 : 1;
     for (const Fault& fault : faults) {
-      ASSERT_THAT(fault.where, MatchesRegex(".*mutated.textproto:[0-9]+:[0-9]+")) << text;
-      ASSERT_FALSE(fault.what.empty()) << text;
+      ASSERT_THAT(fault.where + (fault.where.empty() ? "" : ": ") + fault.what,
+                  MatchesRegex(".*/[a-z]+.textproto:[0-9]+:[0-9]+: .+"))
+          << text;
     }
+    folder.Write(name, good);
   }
   google::protobuf::SetLogHandler(nullptr);
   EXPECT_THAT(printed, IsEmpty());

@@ -2,8 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include "tests/process/fake_graph.h"
-#include "tests/process/launched.h"
+#include "tests/process/fake_run.h"
 
 namespace declutter {
 namespace {
@@ -14,12 +13,8 @@ using testing::Not;
 
 constexpr const char* kRestart = "restart: \"on_failure\" restart_delay_s: 0.05 ";
 
-class RestartTest : public testing::Test {
+class RestartTest : public FakeRun {
  protected:
-  std::vector<std::string> Command(const std::string& graph) const {
-    return {LAUNCHER, "run", graph, "--log_dir", folder_.Path("logs")};
-  }
-
   // The process of a module; 0 while there is none.
   pid_t Find(const std::string& program) const {
     const auto found = ModulesOf(program);
@@ -31,12 +26,6 @@ class RestartTest : public testing::Test {
   bool Says(const std::string& text) const {
     return Eventually([&] { return Err().find(text) != std::string::npos; });
   }
-
-  void TearDown() override {
-    EXPECT_TRUE(Eventually([this] { return ProcessesWith(folder_.Path("")).empty(); }));
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(RestartTest, BringsAKilledModuleBackEachTime) {
@@ -105,6 +94,16 @@ TEST_F(RestartTest, RestartsAModuleThatHangsThoughItStillGivesSignsOfLife) {
   ASSERT_TRUE(Eventually([this] { return Find("fake_filter") > 0; }));
   launcher.Signal(SIGTERM);
   EXPECT_EQ(launcher.Wait().code, 0) << Err();
+}
+
+TEST_F(RestartTest, RestartsASourceThatHangsInItsSensor) {
+  const std::string source = SourceConfig("num_frames: 1000 stuck_at: 5");
+  const std::string graph = FakeGraph(folder_, kRestart + source + " hang_limit_s: 1", "");
+  Launched launcher(Command(graph), folder_);
+  ASSERT_TRUE(Says("source hangs: input waits and no frame was finished for 1 s")) << Err();
+  ASSERT_TRUE(Says("source was killed; starts again in 0.05 s"));
+  launcher.Signal(SIGTERM);
+  EXPECT_EQ(launcher.Wait().code, 143) << Err();
 }
 
 TEST_F(RestartTest, FailsWhenAModuleHangsThatMayNotRestart) {
