@@ -93,8 +93,8 @@ void ModelVerifier::Select(const std::vector<Hypothesis>& hypotheses,
     ObjectModel& object = objects->emplace_back();
     object.solid = candidate.hypothesis.solid;
     if (config_.refine()) {
-      const bool has_moved = RefineIfNoWorse(observed_.every_pixel(), observation, &object.solid,
-                                             &candidate.evidence, &buffers_);
+      const bool has_moved = RefineToRest(observed_.every_pixel(), observation, &object.solid,
+                                          &candidate.evidence, &buffers_);
       if (!has_moved && object.solid.shape == Shape::kCylinder) {
         ClimbCylinder(observation, &object.solid, &candidate.evidence, &buffers_.evidence);
       }

@@ -26,4 +26,21 @@ bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Soli
   return true;
 }
 
+bool RefineToRest(const Observation& fitted, const Observation& judging, Solid* solid,
+                  RayEvidence* evidence, FitBuffers* buffers) {
+  constexpr int kMaxFits = 2;     // the third moves by micrometres
+  constexpr double kRest = 5e-6;  // [m]
+  bool has_moved = false;
+  for (int i = 0; i < kMaxFits; ++i) {
+    const Solid before = *solid;
+    if (!RefineIfNoWorse(fitted, judging, solid, evidence, buffers)) break;
+    has_moved = true;
+    if ((solid->size - before.size).cwiseAbs().maxCoeff() < kRest &&
+        (solid->X_CO.translation() - before.X_CO.translation()).cwiseAbs().maxCoeff() < kRest) {
+      break;
+    }
+  }
+  return has_moved;
+}
+
 }  // namespace declutter
