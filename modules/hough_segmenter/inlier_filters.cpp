@@ -25,15 +25,14 @@ bool InlierFilters::HasAtMost(size_t max_num, float max_gap, const CellArrays& i
   const Range range = RangeOf(values_.data(), inliers.size());
   low_ = range.low;
   bins_per_unit_ = static_cast<float>(kBinsPerGap) / max_gap;
-  is_used_.assign(BinOf(range.high) + 1, 0);
-  for (size_t i = 0; i < inliers.size(); ++i) is_used_[BinOf(values_[i])] = 1;
-  for (size_t bin = 0; bin < is_used_.size(); ++bin) {
-    if (!is_used_[bin]) continue;
+  used_bins_.Clear(BinOf(range.high) + 1);
+  for (size_t i = 0; i < inliers.size(); ++i) used_bins_.Add(BinOf(values_[i]));
+  used_bins_.ForEach([this](size_t bin) {
     if (clusters_.empty() || bin > clusters_.back().last_bin + kBinsPerGap) {
       clusters_.push_back({bin, bin, 0});
     }
     clusters_.back().last_bin = bin;
-  }
+  });
   if (clusters_.size() <= max_num) return true;
   const float* weight = inliers.field(Field::kWeight);
   for (size_t i = 0; i < inliers.size(); ++i) {

@@ -4,6 +4,7 @@
 
 #include "modules/geometry/feature_cloud.h"
 #include "modules/hough_segmenter/cell_arrays.h"
+#include "modules/hough_segmenter/cell_set.h"
 #include "modules/hough_segmenter/model_fits.h"
 
 namespace declutter {
@@ -54,7 +55,7 @@ class InlierFilters {
 
   std::vector<float> values_;  // one for each inlier
   std::vector<float> marks_;
-  std::vector<char> is_used_;  // by bin
+  CellSet used_bins_;
   float bins_per_unit_ = 0;
   float low_ = 0;
   std::vector<Cluster> clusters_;
