@@ -7,7 +7,7 @@
 
 namespace declutter {
 
-// A set of cells of one component, by their indices.
+// A set of indices, as of the cells of one component.
 class CellSet {
  public:
   // Empty, for indices below num.
@@ -28,7 +28,7 @@ class CellSet {
     ForEachBit([](size_t, uint64_t word) { return word; }, visit);
   }
 
-  // Calls visit(i) for each cell that is in both.
+  // Calls visit(i) for each index that is in both.
   template <typename Visit>
   void ForEachIn(const CellSet& other, Visit visit) const {
     ForEachBit([&](size_t k, uint64_t word) { return word & other.words_[k]; }, visit);

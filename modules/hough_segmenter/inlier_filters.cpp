@@ -25,20 +25,23 @@ bool InlierFilters::HasAtMost(size_t max_num, float max_gap, const CellArrays& i
   const Range range = RangeOf(values_.data(), inliers.size());
   low_ = range.low;
   bins_per_unit_ = static_cast<float>(kBinsPerGap) / max_gap;
-  bins_.assign(static_cast<size_t>((range.high - low_) * bins_per_unit_) + 1, 0);
-  const float* weight = inliers.field(Field::kWeight);
-  for (size_t i = 0; i < inliers.size(); ++i) {
-    bins_[static_cast<size_t>((values_[i] - low_) * bins_per_unit_)] += weight[i];
-  }
-  for (size_t bin = 0; bin < bins_.size(); ++bin) {
-    if (bins_[bin] == 0) continue;
+  used_bins_.Clear(BinOf(range.high) + 1);
+  for (size_t i = 0; i < inliers.size(); ++i) used_bins_.Add(BinOf(values_[i]));
+  used_bins_.ForEach([this](size_t bin) {
     if (clusters_.empty() || bin > clusters_.back().last_bin + kBinsPerGap) {
       clusters_.push_back({bin, bin, 0});
     }
     clusters_.back().last_bin = bin;
-    clusters_.back().weight += bins_[bin];
-  }
+  });
   if (clusters_.size() <= max_num) return true;
+  const float* weight = inliers.field(Field::kWeight);
+  for (size_t i = 0; i < inliers.size(); ++i) {
+    const auto is_before = [](const Cluster& cluster, size_t bin) {
+      return cluster.last_bin < bin;
+    };
+    std::lower_bound(clusters_.begin(), clusters_.end(), BinOf(values_[i]), is_before)->weight +=
+        weight[i];
+  }
   std::partial_sort(clusters_.begin(), clusters_.begin() + static_cast<std::ptrdiff_t>(max_num),
                     clusters_.end(), [](const Cluster& a, const Cluster& b) {
                       return a.weight != b.weight ? a.weight > b.weight : a.first_bin < b.first_bin;
@@ -50,7 +53,7 @@ bool InlierFilters::HasAtMost(size_t max_num, float max_gap, const CellArrays& i
 void InlierFilters::KeepClusters(CellArrays* inliers) {
   KeepIf(
       [this](size_t i) {
-        const auto bin = static_cast<size_t>((values_[i] - low_) * bins_per_unit_);
+        const auto bin = BinOf(values_[i]);
         return std::any_of(clusters_.begin(), clusters_.end(), [bin](const Cluster& cluster) {
           return bin >= cluster.first_bin && bin <= cluster.last_bin;
         });
@@ -61,7 +64,7 @@ void InlierFilters::KeepClusters(CellArrays* inliers) {
 float InlierFilters::SpanOf(const Cluster& cluster, size_t num_inliers) const {
   Range span{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
   for (size_t i = 0; i < num_inliers; ++i) {
-    const auto bin = static_cast<size_t>((values_[i] - low_) * bins_per_unit_);
+    const auto bin = BinOf(values_[i]);
     if (bin < cluster.first_bin || bin > cluster.last_bin) continue;
     span = {std::min(span.low, values_[i]), std::max(span.high, values_[i])};
   }

@@ -4,6 +4,7 @@
 
 #include "modules/geometry/feature_cloud.h"
 #include "modules/hough_segmenter/cell_arrays.h"
+#include "modules/hough_segmenter/cell_set.h"
 #include "modules/hough_segmenter/model_fits.h"
 
 namespace declutter {
@@ -45,6 +46,7 @@ class InlierFilters {
   // Finds the clusters of the values_ of inliers: where nothing lies for max_gap (to an eighth of
   // it), a new one begins. Keeps the `max_num` heaviest in clusters_; false when there are more.
   bool HasAtMost(size_t max_num, float max_gap, const CellArrays& inliers);
+  size_t BinOf(float value) const { return static_cast<size_t>((value - low_) * bins_per_unit_); }
   float SpanOf(const Cluster& cluster, size_t num_inliers) const;
   // Drops the inliers outside clusters_.
   void KeepClusters(CellArrays* inliers);
@@ -53,7 +55,7 @@ class InlierFilters {
 
   std::vector<float> values_;  // one for each inlier
   std::vector<float> marks_;
-  std::vector<float> bins_;  // weight in each
+  CellSet used_bins_;
   float bins_per_unit_ = 0;
   float low_ = 0;
   std::vector<Cluster> clusters_;
