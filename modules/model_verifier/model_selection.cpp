@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/box_splitting.h"
 #include "modules/model_verifier/refinement.h"
+#include "modules/model_verifier/systematic_misfit.h"
 
 namespace declutter {
 namespace {
@@ -124,6 +126,7 @@ class Selection {
       }
       if (!IsPlausible(config_, candidate.evidence)) continue;
       candidate.is_refined = true;
+      candidate.misfit_share = MisfitShare(candidate);
       for (const size_t i : selected_) {
         candidate.num_blockers += AreRivals(candidate, candidates_[i]);
       }
@@ -132,6 +135,19 @@ class Selection {
       if (!first || Gain(candidates_[added]) > Gain(candidates_[*first])) first = added;
     }
     return first && candidates_[*first].num_blockers <= 1 && Replace({old}, first);
+  }
+
+  // Share of its pixels that a candidate loses because its side is of another shape than the points
+  // on it.
+  double MisfitShare(const Candidate& candidate) const {
+    constexpr double kNoise =
+        0.1;  // [sigma^2] that noise, which neighbours share, leaves of a strip
+    constexpr double kWeight = 0.4;
+    constexpr double kMaxShare = 0.3;
+    const Solid& solid = candidate.hypothesis.solid;
+    const double misfit = SystematicMisfit(solid, ExplainedPoints(candidate)) /
+                          MeasurementSigma(solid.X_CO.translation().z());
+    return std::clamp(kWeight * (misfit * misfit - kNoise), 0.0, kMaxShare);
   }
 
   std::vector<Eigen::Vector3d> ExplainedPoints(const Candidate& candidate) const {
@@ -221,6 +237,7 @@ class Selection {
       }
       RefineIfNoWorse(observation_, observation_, &candidate.hypothesis.solid, &candidate.evidence);
       candidate.is_refined = true;
+      candidate.misfit_share = MisfitShare(candidate);
       candidate.is_out = !IsPlausible(config_, candidate.evidence);
       candidate.num_blockers = 0;
       for (size_t i : selected_) candidate.num_blockers += AreRivals(candidate, candidates_[i]);
@@ -247,7 +264,8 @@ class Selection {
     gain *= evidence.pixel_weight;
     double penalty =
         config_.violation_weight() *
-        (evidence.num_violating + evidence.num_contradicting + evidence.num_overhanging);
+            (evidence.num_violating + evidence.num_contradicting + evidence.num_overhanging) +
+        candidate.misfit_share * gain;
     for (Evidence extent : candidate.hypothesis.evidence) {
       if (extent == Evidence::kAssumed) penalty += config_.assumption_penalty() * gain;
     }

@@ -15,8 +15,9 @@ struct Candidate {
   bool is_refined = false;
   bool is_out = false;  // does not take part
   bool is_selected = false;
-  int num_blockers = 0;  // selected candidates in its space
-  double gain = 0;       // [px] explained by it alone, less what speaks against it
+  int num_blockers = 0;     // selected candidates in its space
+  double misfit_share = 0;  // of its pixels, that count against it as its side has another shape
+  double gain = 0;          // [px] explained by it alone, less what speaks against it
 };
 
 // The set of solids that explains the image best: takes the hypothesis that explains the most

@@ -1,0 +1,91 @@
+#include "modules/model_verifier/systematic_misfit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace declutter {
+namespace {
+
+constexpr double kEdgeMargin = 0.006;  // [m] around edges, where surfaces are blurred
+constexpr double kOutline = 1.0;       // [rad] from the line of sight: the outline of a cylinder
+constexpr size_t kNumStrips = 6;
+constexpr int kMinPoints = 3;  // of a strip that counts
+constexpr int kMinStrips = 4;
+
+struct SidePoint {
+  double along;     // [m]
+  double distance;  // [m] from the side
+};
+
+double MisfitOf(const std::vector<SidePoint>& points) {
+  if (points.empty()) return 0;
+  const auto [first, last] =
+      std::minmax_element(points.begin(), points.end(),
+                          [](const SidePoint& a, const SidePoint& b) { return a.along < b.along; });
+  const double low = first->along;
+  const double strips_per_m = kNumStrips / std::max(1e-6, last->along - low);
+  std::array<double, kNumStrips> sums = {};
+  std::array<int, kNumStrips> nums = {};
+  for (const SidePoint& point : points) {
+    const auto strip =
+        std::min(kNumStrips - 1, static_cast<size_t>((point.along - low) * strips_per_m));
+    sums[strip] += point.distance;
+    ++nums[strip];
+  }
+  double sum = 0;
+  double square_sum = 0;
+  int num = 0;
+  for (size_t i = 0; i < kNumStrips; ++i) {
+    if (nums[i] < kMinPoints) continue;
+    const double mean = sums[i] / nums[i];
+    sum += mean;
+    square_sum += mean * mean;
+    ++num;
+  }
+  if (num < kMinStrips) return 0;
+  return std::sqrt(std::max(0.0, square_sum / num - (sum / num) * (sum / num)));
+}
+
+std::vector<SidePoint> OnCylinder(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
+                                  const Eigen::Vector2d& sight_O) {
+  std::vector<SidePoint> side;
+  for (const Eigen::Vector3d& p : points_O) {
+    const Eigen::Vector2d q = p.head<2>();
+    if (std::abs(p.z()) > 0.5 * solid.height() - kEdgeMargin) continue;
+    const double angle = std::atan2(sight_O.x() * q.y() - sight_O.y() * q.x(), sight_O.dot(q));
+    if (std::abs(angle) < kOutline) {
+      side.push_back({angle * solid.radius(), q.norm() - solid.radius()});
+    }
+  }
+  return side;
+}
+
+// Of the side of a box that is turned toward the camera across an axis.
+std::vector<SidePoint> OnBox(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
+                             int axis, double sign) {
+  const Eigen::Vector3d half = 0.5 * solid.size;
+  std::vector<SidePoint> side;
+  for (const Eigen::Vector3d& p : points_O) {
+    const double distance = sign * p[axis] - half[axis];
+    if (std::abs(distance) < kEdgeMargin && std::abs(p.z()) < half.z() - kEdgeMargin &&
+        std::abs(p[1 - axis]) < half[1 - axis] - kEdgeMargin) {
+      side.push_back({p[1 - axis], distance});
+    }
+  }
+  return side;
+}
+
+}  // namespace
+
+double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O) {
+  const Eigen::Vector3d camera_O = solid.X_CO.inverse().translation();
+  if (solid.shape == Shape::kCylinder) {
+    return MisfitOf(OnCylinder(solid, points_O, camera_O.head<2>()));
+  }
+  std::vector<SidePoint> side = OnBox(solid, points_O, 0, std::copysign(1.0, camera_O.x()));
+  std::vector<SidePoint> other = OnBox(solid, points_O, 1, std::copysign(1.0, camera_O.y()));
+  return MisfitOf(side.size() > other.size() ? side : other);
+}
+
+}  // namespace declutter
