@@ -88,4 +88,30 @@ double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& 
   return MisfitOf(side.size() > other.size() ? side : other);
 }
 
+Taper TaperOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O, double sigma) {
+  constexpr double kMinHeight = 0.020;  // [m] between the points, to tell
+  constexpr size_t kMinNum = 30;
+  constexpr double kPixelsPerSample = 36;  // over which the noise of a sensor is correlated
+  std::vector<Eigen::Vector2d> points;     // height, distance from the side
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  double low = 1;
+  double high = -1;
+  for (const Eigen::Vector3d& p : points_O) {
+    if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) continue;
+    points.emplace_back(p.z(), p.head<2>().norm() - cylinder.radius());
+    mean += points.back();
+    low = std::min(low, p.z());
+    high = std::max(high, p.z());
+  }
+  if (points.size() < kMinNum || high - low < kMinHeight) return {};
+  mean /= static_cast<double>(points.size());
+  double zz = 0;
+  double zd = 0;
+  for (const Eigen::Vector2d& point : points) {
+    zz += (point.x() - mean.x()) * (point.x() - mean.x());
+    zd += (point.x() - mean.x()) * (point.y() - mean.y());
+  }
+  return {zd / zz, sigma * std::sqrt(kPixelsPerSample / zz)};
+}
+
 }  // namespace declutter

@@ -13,4 +13,14 @@ namespace declutter {
 // its frame.
 double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O);
 
+// Growth of the radius of a cylinder's side with height.
+struct Taper {
+  double slope = 0;
+  double sd = 0;  // standard deviation of the slope
+};
+
+// Of the points on the side, each with noise sigma [m] that it shares with its neighbours; 0 where
+// they cover too little of its height to tell.
+Taper TaperOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O, double sigma);
+
 }  // namespace declutter

@@ -48,6 +48,15 @@ TEST(SystematicMisfit, TellsARoundSideFromAFlatOne) {
   EXPECT_GT(SystematicMisfit(box, RoundSide()), 0.0015);
 }
 
+TEST(TaperOf, IsTheSlopeOfACone) {
+  std::vector<Eigen::Vector3d> points_O = RoundSide();
+  for (Eigen::Vector3d& p : points_O) p.head<2>() *= 1 - 0.2 * p.z() / kRadius;
+  const Solid cylinder = SolidOf(Shape::kCylinder, {2 * kRadius, 2 * kRadius, kHeight});
+  EXPECT_NEAR(TaperOf(cylinder, points_O, 0.001).slope, -0.2, 1e-6);
+  EXPECT_NEAR(TaperOf(cylinder, RoundSide(), 0.001).slope, 0, 1e-6);
+  EXPECT_GT(TaperOf(cylinder, RoundSide(), 0.001).sd, 0.001);
+}
+
 TEST(SystematicMisfit, SaysNothingOfASideWithoutPoints) {
   EXPECT_EQ(SystematicMisfit(SolidOf(Shape::kCylinder, {0.06, 0.06, kHeight}), {}), 0);
 }
