@@ -126,7 +126,7 @@ class Selection {
       }
       if (!IsPlausible(config_, candidate.evidence)) continue;
       candidate.is_refined = true;
-      candidate.misfit_share = MisfitShare(candidate);
+      candidate.misfit_share = MisfitShareOf(candidate);
       for (const size_t i : selected_) {
         candidate.num_blockers += AreRivals(candidate, candidates_[i]);
       }
@@ -137,17 +137,10 @@ class Selection {
     return first && candidates_[*first].num_blockers <= 1 && Replace({old}, first);
   }
 
-  // Share of its pixels that a candidate loses because its side is of another shape than the points
-  // on it.
-  double MisfitShare(const Candidate& candidate) const {
-    constexpr double kNoise =
-        0.1;  // [sigma^2] that noise, which neighbours share, leaves of a strip
-    constexpr double kWeight = 0.4;
-    constexpr double kMaxShare = 0.3;
+  double MisfitShareOf(const Candidate& candidate) const {
     const Solid& solid = candidate.hypothesis.solid;
-    const double misfit = SystematicMisfit(solid, ExplainedPoints(candidate)) /
-                          MeasurementSigma(solid.X_CO.translation().z());
-    return std::clamp(kWeight * (misfit * misfit - kNoise), 0.0, kMaxShare);
+    return MisfitShare(SystematicMisfit(solid, ExplainedPoints(candidate)) /
+                       MeasurementSigma(solid.X_CO.translation().z()));
   }
 
   std::vector<Eigen::Vector3d> ExplainedPoints(const Candidate& candidate) const {
@@ -237,7 +230,7 @@ class Selection {
       }
       RefineIfNoWorse(observation_, observation_, &candidate.hypothesis.solid, &candidate.evidence);
       candidate.is_refined = true;
-      candidate.misfit_share = MisfitShare(candidate);
+      candidate.misfit_share = MisfitShareOf(candidate);
       candidate.is_out = !IsPlausible(config_, candidate.evidence);
       candidate.num_blockers = 0;
       for (size_t i : selected_) candidate.num_blockers += AreRivals(candidate, candidates_[i]);

@@ -18,19 +18,26 @@ namespace {
 // [px] between the pixels that models are selected by; what is selected is measured with all.
 constexpr int kSelectionStep = 2;
 
-// True for what only part of is like a cylinder, such as a bowl.
-bool IsTapered(const Solid& solid, const RayEvidence& evidence, const DepthImage& image) {
+// In [0, 1]: how much of the confidence in a cylinder the shape of its side leaves. None where the
+// side is clearly tapered, as that of a bowl is; less where its radius changes with height by more
+// than noise.
+double ShareOfSide(const Solid& cylinder, const RayEvidence& evidence, const DepthImage& image) {
   // 6 degrees. The distortion of a sensor tilts 5 cm of a surface by 2.4 (rms).
   constexpr double kMaxTaper = 0.1;
-  if (solid.shape != Shape::kCylinder) return false;
-  const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
+  // Whose noise is that of one independent sample, in all six layers.
+  constexpr double kPixelsPerLayer = 6 * 36;
+  const double sigma = MeasurementSigma(cylinder.X_CO.translation().z());
+  const Eigen::Isometry3d X_OC = cylinder.X_CO.inverse();
   std::vector<Eigen::Vector3d> points_O;
   for (const auto& pixel : evidence.explained) {
     points_O.push_back(
         X_OC * image.PointAt(pixel.pixel % image.camera.width, pixel.pixel / image.camera.width));
   }
-  const Taper taper = TaperOf(solid, points_O, MeasurementSigma(solid.X_CO.translation().z()));
-  return std::abs(taper.slope) - 2 * taper.sd > kMaxTaper;
+  const Taper taper = TaperOf(cylinder, points_O, sigma);
+  if (std::abs(taper.slope) - 2 * taper.sd > kMaxTaper) return 0;
+  const double misfit = LayerMisfit(cylinder, points_O) / sigma;
+  const double noise = kPixelsPerLayer / std::max(1.0, static_cast<double>(points_O.size()));
+  return 1 - MisfitShare(std::sqrt(std::max(0.0, misfit * misfit - noise)));
 }
 
 // Fills the empty label image: each pixel belongs to the object whose surface it fits best; what is
@@ -112,7 +119,9 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
     ObjectModel& object = list.objects[i];
     object.confidence = static_cast<float>(Confidence(
         object, evidence[i], NumUnexplained(object.solid, frame.image, support, list.labels)));
-    if (IsTapered(object.solid, evidence[i], frame.image)) object.confidence = 0;
+    if (object.solid.shape == Shape::kCylinder) {
+      object.confidence *= static_cast<float>(ShareOfSide(object.solid, evidence[i], frame.image));
+    }
     const SolidEnds ends = EndsOf(object.solid, object.evidence, evidence[i], coarse);
     object.evidence = ExtentEvidence(ends);
     object.covariance = CovarianceOf(object.solid, ends, evidence[i], observation);

@@ -88,6 +88,22 @@ double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& 
   return MisfitOf(side.size() > other.size() ? side : other);
 }
 
+double LayerMisfit(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
+  std::vector<SidePoint> side;
+  for (const Eigen::Vector3d& p : points_O) {
+    if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) continue;
+    side.push_back({p.z(), p.head<2>().norm() - cylinder.radius()});
+  }
+  return MisfitOf(side);
+}
+
+double MisfitShare(double misfit_sigmas) {
+  constexpr double kNoise = 0.1;  // [sigma^2] that noise, which neighbours share, leaves of a strip
+  constexpr double kWeight = 0.4;
+  constexpr double kMaxShare = 0.3;
+  return std::clamp(kWeight * (misfit_sigmas * misfit_sigmas - kNoise), 0.0, kMaxShare);
+}
+
 Taper TaperOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O, double sigma) {
   constexpr double kMinHeight = 0.020;  // [m] between the points, to tell
   constexpr size_t kMinNum = 30;

@@ -13,6 +13,12 @@ namespace declutter {
 // its frame.
 double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O);
 
+// [m] the same of a cylinder, layer by layer: a body with a waist or a shoulder is none.
+double LayerMisfit(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O);
+
+// Share of what speaks for a solid that a misfit of so many sigma of the sensor's noise takes.
+double MisfitShare(double misfit_sigmas);
+
 // Growth of the radius of a cylinder's side with height.
 struct Taper {
   double slope = 0;

@@ -57,6 +57,20 @@ TEST(TaperOf, IsTheSlopeOfACone) {
   EXPECT_GT(TaperOf(cylinder, RoundSide(), 0.001).sd, 0.001);
 }
 
+TEST(LayerMisfit, TellsABodyWithAWaist) {
+  std::vector<Eigen::Vector3d> points_O = RoundSide();
+  const Solid cylinder = SolidOf(Shape::kCylinder, {2 * kRadius, 2 * kRadius, kHeight});
+  EXPECT_LT(LayerMisfit(cylinder, points_O), 1e-6);
+  for (Eigen::Vector3d& p : points_O) p.head<2>() *= 0.9 + 0.1 * std::abs(p.z()) / 0.04;
+  EXPECT_GT(LayerMisfit(cylinder, points_O), 0.0007);
+}
+
+TEST(MisfitShare, IsNothingForNoiseAndBoundedForEverything) {
+  EXPECT_EQ(MisfitShare(0.3), 0);
+  EXPECT_GT(MisfitShare(0.8), 0.1);
+  EXPECT_EQ(MisfitShare(5), MisfitShare(50));
+}
+
 TEST(SystematicMisfit, SaysNothingOfASideWithoutPoints) {
   EXPECT_EQ(SystematicMisfit(SolidOf(Shape::kCylinder, {0.06, 0.06, kHeight}), {}), 0);
 }
