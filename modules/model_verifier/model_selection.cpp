@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/box_splitting.h"
 #include "modules/model_verifier/cylinder_refinement.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/shared_space.h"
+#include "modules/model_verifier/systematic_misfit.h"
 
 namespace declutter {
 namespace {
@@ -16,17 +18,11 @@ constexpr double kMinImprovement = 1.02;  // of the gain, for an exchange
 constexpr size_t kMaxParts = 64;          // of boxes that are split, in one frame
 constexpr int8_t kUnknown = -1;
 
-// The measured points on the surface of a solid, in O.
-std::vector<Eigen::Vector3d> ExplainedPoints(const Solid& solid, const RayEvidence& evidence,
-                                             const Observation& observation) {
-  const PixelGrid& grid = observation.grid;
-  const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
-  std::vector<Eigen::Vector3d> points_O;
-  for (const int32_t pixel : evidence.explained) {
-    const int u = grid.step * (pixel % grid.columns), v = grid.step * (pixel / grid.columns);
-    points_O.push_back(X_OC * observation.image.PointAt(u, v));
-  }
-  return points_O;
+double MisfitShareOf(const Candidate& candidate, const Observation& observation) {
+  const Solid& solid = candidate.hypothesis.solid;
+  return MisfitShare(
+      SystematicMisfit(solid, ExplainedPoints(solid, candidate.evidence, observation)) /
+      MeasurementSigma(solid.X_CO.translation().z()));
 }
 
 bool Overlap(const PixelWindow& a, const PixelWindow& b) {
@@ -84,7 +80,7 @@ bool ModelSelection::Exchange(const Input& input) {
     if (IsWorthTrying(i)) has_changed |= Replace(BlockersOf(i), i, input);
   }
   for (const size_t old : std::vector<size_t>(selected_)) {
-    has_changed |= candidates_[old].is_selected && Split(old, input);
+    has_changed |= candidates_[old].is_selected && (Split(old, input) || CutLower(old, input));
   }
   return has_changed;
 }
@@ -111,9 +107,9 @@ std::vector<size_t> ModelSelection::BlockersOf(size_t index) {
 }
 
 // Gives the place of selected candidates to others, beginning with `first`; takes that back and
-// returns false unless they explain more.
+// returns false unless they explain more than a share of what those did.
 bool ModelSelection::Replace(const std::vector<size_t>& old, std::optional<size_t> first,
-                             const Input& input) {
+                             const Input& input, double share_of_old) {
   double old_gain = 0;
   for (const size_t i : old) {
     Release(i);
@@ -131,7 +127,7 @@ bool ModelSelection::Replace(const std::vector<size_t>& old, std::optional<size_
     Select(*next);
   }
   for (const size_t i : old) candidates_[i].is_out = false;
-  if (new_gain > kMinImprovement * old_gain) return true;
+  if (new_gain > kMinImprovement * share_of_old * old_gain) return true;
   for (const size_t i : instead) Release(i);
   for (const size_t i : old) Select(i);
   return false;
@@ -142,22 +138,47 @@ bool ModelSelection::Replace(const std::vector<size_t>& old, std::optional<size_
 bool ModelSelection::Split(size_t old, const Input& input) {
   constexpr double kMaxFreeShare = 0.05;  // of the explained pixels: beyond what noise makes
   constexpr int kMaxFree = 60;            // [px] that edges leave
-  const Hypothesis hypothesis = candidates_[old].hypothesis;
+  const Solid& solid = candidates_[old].hypothesis.solid;
   const RayEvidence& evidence = candidates_[old].evidence;
   const int num_free = evidence.num_violating + evidence.num_contradicting;
-  if (hypothesis.solid.shape != Shape::kBox || num_free < kMaxFree ||
+  if (solid.shape != Shape::kBox || num_free < kMaxFree ||
       num_free < kMaxFreeShare * evidence.num_explained()) {
     return false;
   }
-  const auto parts =
-      SplitBox(hypothesis.solid, ExplainedPoints(hypothesis.solid, evidence, input.observation));
-  if (!parts) return false;
+  const auto parts = SplitBox(solid, ExplainedPoints(solid, evidence, input.observation));
+  return parts && ReplaceByParts({(*parts)[0], (*parts)[1]}, old, 1, input);
+}
+
+// Gives the place of a cylinder whose radius changes on its way down to its upper part: it may
+// stand on another that continues its side. True when that explains more.
+bool ModelSelection::CutLower(size_t old, const Input& input) {
+  constexpr double kMaxMisfit = 0.6;  // [sigma]
+  const Solid& solid = candidates_[old].hypothesis.solid;
+  if (solid.shape != Shape::kCylinder) return false;
+  const std::vector<Eigen::Vector3d> points_O =
+      ExplainedPoints(solid, candidates_[old].evidence, input.observation);
+  const double misfit =
+      LayerMisfit(solid, points_O) / MeasurementSigma(solid.X_CO.translation().z());
+  if (misfit < kMaxMisfit) return false;
+  const auto step = StepOf(solid, points_O);
+  if (!step) return false;
+  Solid upper = solid;
+  upper.size.z() = 0.5 * solid.height() - *step;
+  upper.X_CO = solid.X_CO * Eigen::Translation3d(0, 0, 0.5 * (0.5 * solid.height() + *step));
+  return ReplaceByParts({upper}, old, 1 - MisfitShare(misfit), input);
+}
+
+// Proposes parts of a selected candidate in its place, of whose gain only a share counts.
+bool ModelSelection::ReplaceByParts(const std::vector<Solid>& parts, size_t old,
+                                    double share_of_old, const Input& input) {
+  const Hypothesis whole = candidates_[old].hypothesis;
   std::optional<size_t> first;
-  for (const Solid& part : *parts) {
-    const auto added = AddPart(hypothesis, part, input);
+  for (const Solid& part : parts) {
+    const auto added = AddPart(whole, part, input);
     if (added && (!first || Gain(&candidates_[*added]) > Gain(&candidates_[*first]))) first = added;
   }
-  return first && candidates_[*first].num_blockers <= 1 && Replace({old}, first, input);
+  return first && candidates_[*first].num_blockers <= 1 &&
+         Replace({old}, first, input, share_of_old);
 }
 
 // A part of what was one hypothesis, as a candidate of its own; nothing when it is not plausible.
@@ -169,12 +190,14 @@ std::optional<size_t> ModelSelection::AddPart(const Hypothesis& whole, const Sol
   CastRays(part, input.observation, &candidate.evidence);
   candidate.Begin(whole);
   candidate.hypothesis.solid = part;
+  if (part.shape == Shape::kCylinder) candidate.hypothesis.evidence[2] = Evidence::kAssumed;
   if (config_.refine()) {
     RefineIfNoWorse(input.observation, input.observation, &candidate.hypothesis.solid,
                     &candidate.evidence, input.buffers);
   }
   if (!IsPlausible(candidate.evidence)) return std::nullopt;
   candidate.is_refined = true;
+  candidate.misfit_share = MisfitShareOf(candidate, input.observation);
   ++num_candidates_;
   OnMoved(added);
   return added;
@@ -214,7 +237,8 @@ bool ModelSelection::RefineRivals(const Candidate& best, const Input& input) {
                         &candidate.evidence, input.buffers);
     candidate.is_refined = true;
     candidate.may_climb = !has_moved && candidate.hypothesis.solid.shape == Shape::kCylinder;
-    if (has_moved) OnMoved(i);
+    candidate.misfit_share = MisfitShareOf(candidate, input.observation);
+    OnMoved(i);
     has_changed = true;
   }
   return has_changed;
@@ -272,8 +296,10 @@ double ModelSelection::CountGain(const Candidate& candidate) const {
     fit_sum += is_free ? evidence.fits[i] : 0;
   }
   const double gain = static_cast<double>(evidence.pixel_weight * fit_sum) / kFitUnit;
-  double penalty = config_.violation_weight() *
-                   (evidence.num_violating + evidence.num_contradicting + evidence.num_overhanging);
+  double penalty =
+      config_.violation_weight() *
+          (evidence.num_violating + evidence.num_contradicting + evidence.num_overhanging) +
+      candidate.misfit_share * gain;
   for (Evidence extent : candidate.hypothesis.evidence) {
     if (extent == Evidence::kAssumed) penalty += config_.assumption_penalty() * gain;
   }

@@ -21,6 +21,7 @@ struct Candidate {
   bool is_selected = false;
   bool is_gain_known = false;
   int num_blockers = 0;       // selected candidates in its space
+  double misfit_share = 0;    // of its pixels, that count against it as its side is another shape
   double gain = 0;            // [px] explained by it alone, less what speaks against it
   double selection_gain = 0;  // [px] the same when it was chosen
 
@@ -29,6 +30,7 @@ struct Candidate {
     hypothesis = begun;
     is_refined = may_climb = is_out = is_selected = is_gain_known = false;
     num_blockers = 0;
+    misfit_share = 0;
   }
 };
 
@@ -58,8 +60,12 @@ class ModelSelection {
   bool Exchange(const Input& input);
   bool IsWorthTrying(size_t index);
   std::vector<size_t> BlockersOf(size_t index);
-  bool Replace(const std::vector<size_t>& old, std::optional<size_t> first, const Input& input);
+  bool Replace(const std::vector<size_t>& old, std::optional<size_t> first, const Input& input,
+               double share_of_old = 1);
   bool Split(size_t old, const Input& input);
+  bool CutLower(size_t old, const Input& input);
+  bool ReplaceByParts(const std::vector<Solid>& parts, size_t old, double share_of_old,
+                      const Input& input);
   std::optional<size_t> AddPart(const Hypothesis& whole, const Solid& part, const Input& input);
   std::optional<size_t> Best(const Input& input);
   bool RefineRivals(const Candidate& best, const Input& input);

@@ -77,6 +77,19 @@ void CastRays(const Solid& solid, const Observation& observation, RayEvidence* r
   evidence.num_unknown = weight * counts.num_unknown;
 }
 
+std::vector<Eigen::Vector3d> ExplainedPoints(const Solid& solid, const RayEvidence& evidence,
+                                             const Observation& observation) {
+  const PixelGrid& grid = observation.grid;
+  const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
+  std::vector<Eigen::Vector3d> points_O;
+  points_O.reserve(evidence.explained.size());
+  for (const int32_t pixel : evidence.explained) {
+    const int u = grid.step * (pixel % grid.columns), v = grid.step * (pixel / grid.columns);
+    points_O.push_back(X_OC * observation.image.PointAt(u, v));
+  }
+  return points_O;
+}
+
 int NumNear(const Solid& solid, double reach_m, const Observation& observation) {
   static const RayLimits kLimits = LimitsWith(kNeighbourMinHeight);
   return CountNear(AsRaySolid(solid, observation.support), WindowOf(solid, reach_m, observation),

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "tests/accuracy/solid_comparison.h"
 
@@ -31,15 +33,31 @@ void Add(ErrorTable* table, const std::string& name, double error) {
   table->push_back({name, {error}});
 }
 
-// Indices of the extents, longest first.
-std::array<int, 3> LongestFirst(const Eigen::Vector3d& size) {
-  std::array<int, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] > size[b]; });
-  return order;
-}
-
 bool IsObserved(const ObjectModel& model, int axis) {
   return model.evidence[static_cast<size_t>(axis)] == Evidence::kObserved;
+}
+
+// For each axis of the model's box the true extent beside it, longest first 0, 1, 2: the axes that
+// a size belongs to are not known, so it is the pairing of least total error, of observed extents
+// before all others.
+std::array<size_t, 3> PairExtents(const ObjectModel& model,
+                                  const std::array<double, 3>& true_size) {
+  constexpr double kWeightOfObserved = 1000;
+  std::array<size_t, 3> order{0, 1, 2};
+  std::array<size_t, 3> best = order;
+  double best_sum = std::numeric_limits<double>::max();
+  do {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double error = model.solid.size[axis] - true_size[order[static_cast<size_t>(axis)]];
+      sum += std::abs(error) * (IsObserved(model, axis) ? kWeightOfObserved : 1);
+    }
+    if (sum < best_sum) {
+      best_sum = sum;
+      best = order;
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  return best;
 }
 
 void AddExtent(ErrorTable* table, const std::string& name, double error_m, bool observed) {
@@ -47,7 +65,8 @@ void AddExtent(ErrorTable* table, const std::string& name, double error_m, bool 
   if (observed) Add(table, name + " observed mm", kMmPerM * error_m);
 }
 
-void AddSizeErrors(const ObjectModel& model, const Eigen::Vector3d& true_size, ErrorTable* table) {
+void AddSizeErrors(const ObjectModel& model, const Eigen::Vector3d& true_size, bool has_exact_truth,
+                   ErrorTable* table) {
   const Eigen::Vector3d& size = model.solid.size;
   if (model.solid.shape == Shape::kCylinder) {
     Add(table, "cylinder radius mm", kMmPerM * 0.5 * (size.x() - true_size.x()));
@@ -55,12 +74,17 @@ void AddSizeErrors(const ObjectModel& model, const Eigen::Vector3d& true_size, E
     return;
   }
   static const char* const kNames[] = {"box long", "box middle", "box short"};
-  const std::array<int, 3> order = LongestFirst(size);
-  const std::array<int, 3> true_order = LongestFirst(true_size);
-  for (size_t i = 0; i < 3; ++i) {
-    const double error = size[order[i]] - true_size[true_order[i]];
-    AddExtent(table, kNames[i], error, IsObserved(model, order[i]));
-    AddExtent(table, "box extents", error, IsObserved(model, order[i]));
+  std::array<double, 3> sorted = {true_size.x(), true_size.y(), true_size.z()};
+  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  const std::array<size_t, 3> pairing = PairExtents(model, sorted);
+  for (int axis = 0; axis < 3; ++axis) {
+    const size_t beside = pairing[static_cast<size_t>(axis)];
+    const double error = size[axis] - sorted[beside];
+    AddExtent(table, kNames[beside], error, IsObserved(model, axis));
+    AddExtent(table, "box extents", error, IsObserved(model, axis));
+    if (axis == 2 && !has_exact_truth) {
+      AddExtent(table, "box height", error, IsObserved(model, axis));
+    }
   }
 }
 
@@ -154,7 +178,9 @@ class Summarizer {
 
   void AddMatch(const TrueObject& object, const ObjectModel& model, double iou) {
     if (iou > 0) ious_.push_back(iou);
-    if (object.size) AddSizeErrors(model, *object.size, &summary_.errors);
+    if (object.size) {
+      AddSizeErrors(model, *object.size, object.solid.has_value(), &summary_.errors);
+    }
     if (!object.solid) return;
     const SolidError error = CompareSolids(model.solid, *object.solid);
     AddPoseErrors(model, error, &summary_.errors);

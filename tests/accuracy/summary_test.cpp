@@ -54,11 +54,23 @@ TEST(Summarize, CountsByGroupAndShape) {
   EXPECT_DOUBLE_EQ(summary.median_iou.value(), 0.9);
 }
 
-TEST(Summarize, ComparesExtentsOfBoxesLongestFirst) {
+TEST(Summarize, ComparesExtentsOfBoxesInAnyOrder) {
   const Summary summary = Summarize({OneOfEach()});
   EXPECT_NEAR(Errors(summary, "box long mm")->at(0), 2, 1e-9);
   EXPECT_NEAR(Errors(summary, "box middle mm")->at(0), 3, 1e-9);
   EXPECT_NEAR(Errors(summary, "box short mm")->at(0), 1, 1e-9);
+}
+
+TEST(Summarize, ComparesObservedExtentsWithTheLikeliestOfTheSize) {
+  ScoredFrame frame = OneOfEach();
+  frame.found.objects[0] = BoxModel({0.050, 0.197, 0.101});
+  frame.found.objects[0].evidence[0] = Evidence::kAssumed;
+  const Summary summary = Summarize({frame});
+  EXPECT_NEAR(Errors(summary, "box long mm")->at(0), -250, 1e-9);
+  EXPECT_NEAR(Errors(summary, "box middle observed mm")->at(0), -3, 1e-9);
+  EXPECT_NEAR(Errors(summary, "box short observed mm")->at(0), 1, 1e-9);
+  EXPECT_NEAR(Errors(summary, "box height mm")->at(0), 1, 1e-9);
+  EXPECT_EQ(Errors(summary, "box long observed mm"), nullptr);
 }
 
 TEST(Summarize, KeepsAssumedExtentsOutOfTheObservedOnes) {

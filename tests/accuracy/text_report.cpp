@@ -162,10 +162,12 @@ void WriteTotals(const Summary& summary, std::ostream& out) {
   ShapeCount both = summary.total.shapes[0];
   both += summary.total.shapes[1];
   out << Format(
-      "%d frames, %d without result, %d of %d core objects found, %d false models, "
+      "%d frames, %d without result, %d of %d core objects found, %d false models (%.2f a frame), "
       "%d neutral\n",
       summary.total.num_frames, static_cast<int>(summary.without_result.size()), both.num_found,
-      both.num_core, both.num_false, summary.total.num_neutral);
+      both.num_core, both.num_false,
+      static_cast<double>(both.num_false) / std::max(1, summary.total.num_frames),
+      summary.total.num_neutral);
   if (summary.median_iou) {
     out << Format("median IoU of right models %.3f\n", *summary.median_iou);
   }
