@@ -97,7 +97,7 @@ class Selection {
       }
     }
     for (const size_t old : std::vector<size_t>(selected_)) {
-      has_changed |= candidates_[old].is_selected && Split(old);
+      has_changed |= candidates_[old].is_selected && (Split(old) || CutLower(old));
     }
     return has_changed;
   }
@@ -116,10 +116,35 @@ class Selection {
     }
     const auto parts = SplitBox(hypothesis.solid, ExplainedPoints(candidates_[old]));
     if (!parts) return false;
+    return ReplaceBy({(*parts)[0], (*parts)[1]}, old);
+  }
+
+  // Gives the place of a cylinder whose radius changes on its way down to its upper part: it may
+  // stand on another that continues its side. True when that explains more.
+  bool CutLower(size_t old) {
+    constexpr double kMaxMisfit = 0.6;  // [sigma]
+    const Solid solid = candidates_[old].hypothesis.solid;
+    if (solid.shape != Shape::kCylinder) return false;
+    const std::vector<Eigen::Vector3d> points_O = ExplainedPoints(candidates_[old]);
+    const double sigma = MeasurementSigma(solid.X_CO.translation().z());
+    const double misfit = LayerMisfit(solid, points_O) / sigma;
+    if (misfit < kMaxMisfit) return false;
+    const auto step = StepOf(solid, points_O);
+    if (!step) return false;
+    Solid upper = solid;
+    upper.size.z() = 0.5 * solid.height() - *step;
+    upper.X_CO = solid.X_CO * Eigen::Translation3d(0, 0, 0.5 * (0.5 * solid.height() + *step));
+    return ReplaceBy({upper}, old, 1 - MisfitShare(misfit));
+  }
+
+  // Proposes parts of a selected candidate in its place, of whose gain only a share counts.
+  bool ReplaceBy(const std::vector<Solid>& parts, size_t old, double share_of_old = 1) {
+    const Hypothesis hypothesis = candidates_[old].hypothesis;
     std::optional<size_t> first;
-    for (const Solid& part : *parts) {
+    for (const Solid& part : parts) {
       Candidate candidate{hypothesis, CastRays(part, observation_)};
       candidate.hypothesis.solid = part;
+      if (part.shape == Shape::kCylinder) candidate.hypothesis.evidence[2] = Evidence::kAssumed;
       if (config_.refine()) {
         RefineIfNoWorse(observation_, observation_, &candidate.hypothesis.solid,
                         &candidate.evidence);
@@ -134,7 +159,7 @@ class Selection {
       const size_t added = candidates_.size() - 1;
       if (!first || Gain(candidates_[added]) > Gain(candidates_[*first])) first = added;
     }
-    return first && candidates_[*first].num_blockers <= 1 && Replace({old}, first);
+    return first && candidates_[*first].num_blockers <= 1 && Replace({old}, first, share_of_old);
   }
 
   double MisfitShareOf(const Candidate& candidate) const {
@@ -176,7 +201,8 @@ class Selection {
 
   // Gives the place of selected candidates to others, beginning with `first`; takes that back and
   // returns false unless they explain more.
-  bool Replace(const std::vector<size_t>& old, std::optional<size_t> first) {
+  bool Replace(const std::vector<size_t>& old, std::optional<size_t> first,
+               double share_of_old = 1) {
     double old_gain = 0;
     for (const size_t i : old) {
       Release(i);
@@ -193,7 +219,7 @@ class Selection {
       Select(*next);
     }
     for (const size_t i : old) candidates_[i].is_out = false;
-    if (new_gain > kMinImprovement * old_gain) return true;
+    if (new_gain > kMinImprovement * share_of_old * old_gain) return true;
     for (const size_t i : instead) Release(i);
     for (const size_t i : old) Select(i);
     return false;

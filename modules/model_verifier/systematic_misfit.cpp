@@ -97,6 +97,42 @@ double LayerMisfit(const Solid& cylinder, const std::vector<Eigen::Vector3d>& po
   return MisfitOf(side);
 }
 
+std::optional<double> StepOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
+  constexpr int kMinPart = 20;  // points
+  constexpr int kNumLayers = 24;
+  const double low = -0.5 * cylinder.height() + kEdgeMargin;
+  const double layer = (cylinder.height() - 2 * kEdgeMargin) / kNumLayers;
+  if (layer <= 0) return std::nullopt;
+  std::array<double, kNumLayers> sums = {};
+  std::array<int, kNumLayers> nums = {};
+  double total = 0;
+  int num_total = 0;
+  for (const Eigen::Vector3d& p : points_O) {
+    const double place = (p.z() - low) / layer;
+    if (place < 0 || place >= kNumLayers) continue;
+    const double distance = p.head<2>().norm() - cylinder.radius();
+    sums[static_cast<size_t>(place)] += distance;
+    ++nums[static_cast<size_t>(place)];
+    total += distance;
+    ++num_total;
+  }
+  std::optional<double> step;
+  double best = 0;
+  double sum = 0;
+  int num = 0;
+  for (int i = 0; i + 1 < kNumLayers; ++i) {
+    sum += sums[static_cast<size_t>(i)];
+    num += nums[static_cast<size_t>(i)];
+    if (num < kMinPart || num_total - num < kMinPart) continue;
+    // What two means explain of the squares more than one.
+    const double gain = sum * sum / num + (total - sum) * (total - sum) / (num_total - num);
+    if (gain <= best) continue;
+    best = gain;
+    step = low + (i + 1) * layer;
+  }
+  return step;
+}
+
 double MisfitShare(double misfit_sigmas) {
   constexpr double kNoise = 0.1;  // [sigma^2] that noise, which neighbours share, leaves of a strip
   constexpr double kWeight = 0.4;

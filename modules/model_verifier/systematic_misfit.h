@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "modules/geometry/solid.h"
@@ -15,6 +16,10 @@ double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& 
 
 // [m] the same of a cylinder, layer by layer: a body with a waist or a shoulder is none.
 double LayerMisfit(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O);
+
+// [m] along z of O: where the radius of a cylinder's side changes most, between its ends. Nothing
+// when too few points lie on either part.
+std::optional<double> StepOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O);
 
 // Share of what speaks for a solid that a misfit of so many sigma of the sensor's noise takes.
 double MisfitShare(double misfit_sigmas);

@@ -65,6 +65,18 @@ TEST(LayerMisfit, TellsABodyWithAWaist) {
   EXPECT_GT(LayerMisfit(cylinder, points_O), 0.0007);
 }
 
+TEST(StepOf, IsWhereAWiderCylinderBegins) {
+  std::vector<Eigen::Vector3d> points_O = RoundSide();
+  for (Eigen::Vector3d& p : points_O) {
+    if (p.z() < -0.01) p.head<2>() *= 1.1;
+  }
+  const Solid cylinder = SolidOf(Shape::kCylinder, {2 * kRadius, 2 * kRadius, kHeight});
+  const auto step = StepOf(cylinder, points_O);
+  ASSERT_TRUE(step);
+  EXPECT_NEAR(*step, -0.01, 0.004);
+  EXPECT_FALSE(StepOf(cylinder, {}));
+}
+
 TEST(MisfitShare, IsNothingForNoiseAndBoundedForEverything) {
   EXPECT_EQ(MisfitShare(0.3), 0);
   EXPECT_GT(MisfitShare(0.8), 0.1);
