@@ -41,7 +41,7 @@ class FrameLedger {
     for (auto& [channel, delays_ms] : summary_.delays_ms) {
       std::sort(delays_ms.begin(), delays_ms.end());
     }
-    for (const auto& [process, num_out] : published_) summary_.num_published += num_out;
+    for (const auto& [process, num] : published_) summary_.num_published += num;
     return std::move(summary_);
   }
 
@@ -55,7 +55,7 @@ class FrameLedger {
     const auto status = launcher::DecodeStatus({event.channel, event.message});
     if (!status || status->module == kLauncher) return;
     summary_.modules[status->module] = *status;
-    published_[{status->module, status->pid}] = status->num_out;
+    published_[{status->module, status->pid}] = status->num_messages;
   }
 
   FrameSummary summary_;

@@ -90,9 +90,9 @@ TEST_F(FrameSummaryTest, CountsWhatAllProcessesOfAModulePublishedAndWhatIsThere)
     runtime::EventLogWriter writer(path_);
     module_status_t status = {};
     status.module = "plane_filter";
-    const auto write = [&](int32_t pid, int64_t num_out) {
+    const auto write = [&](int32_t pid, int64_t num_messages) {
       status.pid = pid;
-      status.num_out = num_out;
+      status.num_messages = num_messages;
       writer.Write({1, "MODULE_STATUS", launcher::Encode(kModuleStatus, status).bytes});
     };
     write(7, 1);

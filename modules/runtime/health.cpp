@@ -32,6 +32,7 @@ void Health::Published(std::int64_t utime, double now_ms) {
   const std::lock_guard<std::mutex> lock(mutex_);
   frame_times_.Begin(utime, now_ms);
   CountOut(utime);
+  ++num_messages_;
   last_utime_ = utime;
 }
 
@@ -77,6 +78,7 @@ module_status_t Health::Report() {
   status.num_in = num_in_;
   status.num_done = num_done_;
   status.num_out = num_out_;
+  status.num_messages = num_messages_;
   status.num_skipped = num_skipped_;
   status.num_rejected = num_rejected_;
   status.last_utime = last_utime_;

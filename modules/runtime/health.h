@@ -40,6 +40,7 @@ class Health {
   std::int64_t num_done_ = 0;
   std::int64_t num_out_ = 0;
   std::int64_t last_out_utime_ = 0;
+  std::int64_t num_messages_ = 0;
   std::int64_t num_skipped_ = 0;
   std::int64_t num_rejected_ = 0;
   std::int64_t num_handled_ = 0;
