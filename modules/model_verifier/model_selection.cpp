@@ -4,7 +4,6 @@
 
 #include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/box_splitting.h"
-#include "modules/model_verifier/cylinder_refinement.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/shared_space.h"
 #include "modules/model_verifier/systematic_misfit.h"
@@ -215,8 +214,7 @@ std::optional<size_t> ModelSelection::Best(const Input& input) {
       if (!best || Gain(&candidate) > Gain(&candidates_[*best])) best = i;
     }
     if (!best || Gain(&candidates_[*best]) < config_.min_explained_px()) return std::nullopt;
-    if (!config_.refine()) return best;
-    if (!RefineRivals(candidates_[*best], input) && !Climb(*best, input)) return best;
+    if (!config_.refine() || !RefineRivals(candidates_[*best], input)) return best;
   }
 }
 
@@ -232,27 +230,14 @@ bool ModelSelection::RefineRivals(const Candidate& best, const Input& input) {
         !ShareSpace(candidate.hypothesis.solid, space, config_.max_shared_volume())) {
       continue;
     }
-    const bool has_moved =
-        RefineIfNoWorse(input.observation, input.observation, &candidate.hypothesis.solid,
-                        &candidate.evidence, input.buffers);
+    RefineOrClimb(input.observation, input.observation, 1, &candidate.hypothesis.solid,
+                  &candidate.evidence, input.buffers);
     candidate.is_refined = true;
-    candidate.may_climb = !has_moved && candidate.hypothesis.solid.shape == Shape::kCylinder;
     candidate.misfit_share = MisfitShareOf(candidate, input.observation);
     OnMoved(i);
     has_changed = true;
   }
   return has_changed;
-}
-
-// Lets a cylinder that no fit could refine climb; false when it need not.
-bool ModelSelection::Climb(size_t index, const Input& input) {
-  Candidate& candidate = candidates_[index];
-  if (!candidate.may_climb) return false;
-  candidate.may_climb = false;
-  ClimbCylinder(input.observation, &candidate.hypothesis.solid, &candidate.evidence,
-                &input.buffers->evidence);
-  OnMoved(index);
-  return true;
 }
 
 bool ModelSelection::IsFree(const Candidate& candidate) const {

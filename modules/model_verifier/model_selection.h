@@ -16,8 +16,7 @@ struct Candidate {
   Hypothesis hypothesis;
   RayEvidence evidence;
   bool is_refined = false;
-  bool may_climb = false;  // a cylinder that no fit could refine
-  bool is_out = false;     // does not take part
+  bool is_out = false;  // does not take part
   bool is_selected = false;
   bool is_gain_known = false;
   int num_blockers = 0;       // selected candidates in its space
@@ -28,7 +27,7 @@ struct Candidate {
   // Makes this the candidate of another hypothesis; the evidence stays.
   void Begin(const Hypothesis& begun) {
     hypothesis = begun;
-    is_refined = may_climb = is_out = is_selected = is_gain_known = false;
+    is_refined = is_out = is_selected = is_gain_known = false;
     num_blockers = 0;
     misfit_share = 0;
   }
@@ -69,7 +68,6 @@ class ModelSelection {
   std::optional<size_t> AddPart(const Hypothesis& whole, const Solid& part, const Input& input);
   std::optional<size_t> Best(const Input& input);
   bool RefineRivals(const Candidate& best, const Input& input);
-  bool Climb(size_t index, const Input& input);
   bool IsPlausible(const RayEvidence& evidence) const;
   bool IsFree(const Candidate& candidate) const;
   bool AreRivals(size_t a, size_t b);

@@ -5,7 +5,6 @@
 
 #include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/confidence.h"
-#include "modules/model_verifier/cylinder_refinement.h"
 #include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/support_settling.h"
@@ -14,6 +13,9 @@
 
 namespace declutter {
 namespace {
+
+// After which the place of a solid no longer depends on where it was proposed.
+constexpr int kNumFits = 2;
 
 // In [0, 1]: how much of the confidence in a cylinder the shape of its side leaves. None where the
 // side is clearly tapered, as that of a bowl is; less where its radius changes with height by more
@@ -114,11 +116,8 @@ void ModelVerifier::Select(const std::vector<Hypothesis>& hypotheses,
     ObjectModel& object = objects->emplace_back();
     object.solid = candidate.hypothesis.solid;
     if (config_.refine()) {
-      const bool has_moved = RefineToRest(observed_.every_pixel(), observation, &object.solid,
-                                          &candidate.evidence, &buffers_);
-      if (!has_moved && object.solid.shape == Shape::kCylinder) {
-        ClimbCylinder(observation, &object.solid, &candidate.evidence, &buffers_.evidence);
-      }
+      RefineOrClimb(observed_.every_pixel(), observation, kNumFits, &object.solid,
+                    &candidate.evidence, &buffers_);
     }
     object.evidence = candidate.hypothesis.evidence;
     object.num_votes = candidate.hypothesis.num_votes;

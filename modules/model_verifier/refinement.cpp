@@ -26,21 +26,15 @@ bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Soli
   return true;
 }
 
-bool RefineToRest(const Observation& fitted, const Observation& judging, Solid* solid,
-                  RayEvidence* evidence, FitBuffers* buffers) {
-  constexpr int kMaxFits = 2;     // the third moves by micrometres
-  constexpr double kRest = 5e-6;  // [m]
-  bool has_moved = false;
-  for (int i = 0; i < kMaxFits; ++i) {
-    const Solid before = *solid;
-    if (!RefineIfNoWorse(fitted, judging, solid, evidence, buffers)) break;
-    has_moved = true;
-    if ((solid->size - before.size).cwiseAbs().maxCoeff() < kRest &&
-        (solid->X_CO.translation() - before.X_CO.translation()).cwiseAbs().maxCoeff() < kRest) {
-      break;
-    }
+void RefineOrClimb(const Observation& fitted, const Observation& judging, int max_fits,
+                   Solid* solid, RayEvidence* evidence, FitBuffers* buffers) {
+  int num_fits = 0;
+  while (num_fits < max_fits && RefineIfNoWorse(fitted, judging, solid, evidence, buffers)) {
+    ++num_fits;
   }
-  return has_moved;
+  if (num_fits == 0 && solid->shape == Shape::kCylinder) {
+    ClimbCylinder(judging, solid, evidence, &buffers->evidence);
+  }
 }
 
 }  // namespace declutter
