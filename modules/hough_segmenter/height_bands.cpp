@@ -57,14 +57,14 @@ std::vector<size_t> Valleys(const std::vector<float>& values) {
   return valleys;
 }
 
-// Means over the pixels of the same patch in a window, first along rows, then along columns.
-std::vector<float> SmoothWithin(const ImageComponents& patches, const std::vector<float>& values,
-                                int columns, int rows) {
+// Means over the pixels of the same patch in a window, first along rows, then along columns; pixels
+// are those of all patches.
+std::vector<float> SmoothWithin(const ImageComponents& patches, const std::vector<size_t>& pixels,
+                                const std::vector<float>& values, int columns, int rows) {
   constexpr int kReach = kWindow / 2;
   const auto along = [&](const std::vector<float>& in, int length, int stride) {
     std::vector<float> out(in.size(), 0);
-    for (size_t i = 0; i < in.size(); ++i) {
-      if (patches.label[i] < 0) continue;
+    for (const size_t i : pixels) {
       const int at = static_cast<int>(i) / stride % length;
       float sum = 0;
       int num = 0;
@@ -109,12 +109,15 @@ std::vector<float> HeightsBetweenFaces(const std::vector<float>& heights, float 
 
 void SplitAtHeights(int columns, int rows, const std::vector<float>& heights, float max_step_m,
                     int min_pixels, ImageComponents* patches) {
-  const std::vector<float> smooth = SmoothWithin(*patches, heights, columns, rows);
+  std::vector<size_t> pixels;
+  for (size_t i = 0; i < heights.size(); ++i) {
+    if (patches->label[i] >= 0) pixels.push_back(i);
+  }
+  const std::vector<float> smooth = SmoothWithin(*patches, pixels, heights, columns, rows);
   const size_t num_patches = patches->num_pixels.size();
   std::vector<std::vector<float>> patch_heights(num_patches);
   std::vector<std::vector<float>> differences(num_patches);
-  for (size_t i = 0; i < heights.size(); ++i) {
-    if (patches->label[i] < 0) continue;
+  for (const size_t i : pixels) {
     const auto label = static_cast<size_t>(patches->label[i]);
     patch_heights[label].push_back(smooth[i]);
     if (i >= kWindow && patches->label[i - kWindow] == patches->label[i]) {
@@ -135,8 +138,7 @@ void SplitAtHeights(int columns, int rows, const std::vector<float>& heights, fl
   if (!is_split) return;
   std::vector<uint8_t> mask(heights.size(), 0);
   std::vector<float> banded = smooth;
-  for (size_t i = 0; i < heights.size(); ++i) {
-    if (patches->label[i] < 0) continue;
+  for (const size_t i : pixels) {
     mask[i] = 1;
     for (const float limit : limits[static_cast<size_t>(patches->label[i])]) {
       if (smooth[i] > limit) banded[i] += kBandOffset;

@@ -11,6 +11,8 @@
 namespace declutter {
 namespace {
 
+constexpr double kRest = 1e-6;  // [m] of a step that ends a fit
+
 // Gauss-Newton step for centre and radius on the points of the side; false when there are too few.
 bool FitSide(const FitPoints& points, Eigen::Vector3d* x) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
@@ -67,7 +69,9 @@ Solid RefineCylinder(Solid solid, const Observation& observation, FitPoints* buf
   for (int iteration = 0; iteration < 4; ++iteration) {
     Eigen::Vector3d next = x;
     if (!FitSide(points, &next)) break;
+    const bool is_at_rest = (next - x).cwiseAbs().maxCoeff() < kRest;
     x = next;
+    if (is_at_rest) break;
   }
   if (x.head<2>().norm() > 0.02 || std::abs(x.z() - solid.radius()) > 0.02) return solid;
   double top = half_height;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "modules/model_verifier/fit_points.h"
 #include "modules/model_verifier/ray_casting.h"
 
@@ -19,6 +22,9 @@ struct FitBuffers {
 
 // 1 / variance of the distance to a surface whose normal has this cosine with the ray. Half the
 // sensor's noise does not average out at grazing rays, which bounds the weight.
-double Weight(const FitPoint& point, double cosine);
+inline double Weight(const FitPoint& point, double cosine) {
+  const double sigma = point.sigma * std::max(std::abs(cosine), 0.5);
+  return 1 / (sigma * sigma);
+}
 
 }  // namespace declutter

@@ -1,7 +1,8 @@
 #include "modules/object_exporter/object_line.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 namespace declutter {
@@ -53,7 +54,16 @@ ordered_json Matrix(const SolidCovariance& covariance) {
   return rows;
 }
 
-ordered_json Object(const ObjectModel& model, const std::vector<uint8_t>& labels) {
+// Pixels of each label.
+using LabelCounts = std::array<int64_t, 256>;
+
+LabelCounts CountLabels(const std::vector<uint8_t>& labels) {
+  LabelCounts counts = {};
+  for (const uint8_t label : labels) ++counts[label];
+  return counts;
+}
+
+ordered_json Object(const ObjectModel& model, const LabelCounts& num_labelled) {
   const Solid& solid = model.solid;
   const bool is_box = solid.shape == Shape::kBox;
   ordered_json object;
@@ -73,7 +83,7 @@ ordered_json Object(const ObjectModel& model, const std::vector<uint8_t>& labels
   object["covariance"] = Matrix(model.covariance);
   object["supported_by"] = model.supported_by;
   object["votes"] = model.num_votes;
-  object["visible_px"] = std::count(labels.begin(), labels.end(), model.id);
+  object["visible_px"] = num_labelled[static_cast<uint8_t>(model.id)];
   object["explained_px"] = model.num_explained;
   object["occluded_px"] = model.num_occluded;
   object["violating_px"] = model.num_violating;
@@ -89,8 +99,9 @@ std::string ObjectLine(const ObjectList& list, const std::string& picture_name) 
   if (!list.header.error.empty()) line["error"] = list.header.error;
   line["planes"] = Planes(list);
   line["objects"] = ordered_json::array();
+  const LabelCounts num_labelled = CountLabels(list.labels);
   for (const ObjectModel& model : list.objects) {
-    line["objects"].push_back(Object(model, list.labels));
+    line["objects"].push_back(Object(model, num_labelled));
   }
   if (!picture_name.empty()) {
     line["labels"] = picture_name + ".labels.png";
