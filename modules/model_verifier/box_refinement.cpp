@@ -27,22 +27,22 @@ bool IsOn(const FitPoint& point, const BoxFace& face) {
   return (point.surfaces & SurfaceBit(face.axis, face.sign)) != 0;
 }
 
-// Inside the face, `margin` away from its edges.
-bool IsWithin(const FitPoint& point, int except_axis, const Eigen::Vector3d& half, double margin) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis != except_axis && std::abs(point.p_O[axis]) > half[axis] - margin) return false;
-  }
-  return true;
+// Inside a face across an axis, away from its edges.
+bool IsWithin(const FitPoint& point, int axis, const Eigen::Vector3f& inner) {
+  const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
+  return std::abs(point.p_O[a]) <= inner[a] && std::abs(point.p_O[b]) <= inner[b];
 }
 
 // Offsets of the faces that are seen, and the yaw about z of O, by linear least squares.
 class BoxFit {
  public:
   BoxFit(const FitPoints& points, const Eigen::Vector3d& half) {
+    const Eigen::Vector3f inner = (half.array() - kFitEdgeMargin).cast<float>();
     for (const FitPoint& point : points) {
-      for (const BoxFace& face : kFaces) {
-        if (IsOn(point, face) && IsWithin(point, face.axis, half, kFitEdgeMargin)) {
-          Accumulate(point, face, points.pixel_weight());
+      for (uint32_t bits = point.surfaces; bits != 0; bits &= bits - 1) {
+        const int index = __builtin_ctz(bits);
+        if (IsWithin(point, index / 2, inner)) {
+          Accumulate(point, index / 2, points.pixel_weight(), &sums_[index]);
         }
       }
     }
@@ -58,18 +58,23 @@ class BoxFit {
     return static_cast<size_t>(2 * face.axis + (face.sign > 0));
   }
 
-  void Accumulate(const FitPoint& point, const BoxFace& face, int num_px) {
-    Sums& sums = sums_[Index(face)];
-    const double w = Weight(point, point.ray_O[face.axis]);
+  struct Sums {
+    int num = 0;
+    double w = 0, x = 0, l = 0, ll = 0, lx = 0;
+  };
+
+  // A point of a face across an axis.
+  static void Accumulate(const FitPoint& point, int axis, int num_px, Sums* sums) {
+    const double w = Weight(point, point.ray_O[axis]);
     // A yaw of the box by delta takes the plane x = o to x + delta * y = o.
-    const double lever = face.axis == 0 ? point.p_O[1] : face.axis == 1 ? -point.p_O[0] : 0;
-    const double x = point.p_O[face.axis];
-    sums.num += num_px;
-    sums.w += w;
-    sums.x += w * x;
-    sums.l += w * lever;
-    sums.ll += w * lever * lever;
-    sums.lx += w * lever * x;
+    const double lever = axis == 0 ? point.p_O[1] : axis == 1 ? -point.p_O[0] : 0;
+    const double x = point.p_O[axis];
+    sums->num += num_px;
+    sums->w += w;
+    sums->x += w * x;
+    sums->l += w * lever;
+    sums->ll += w * lever * lever;
+    sums->lx += w * lever * x;
   }
 
   // Each offset minimises its own sum: o = mean(x) + yaw * mean(l), which leaves yaw alone.
@@ -88,11 +93,7 @@ class BoxFit {
     }
   }
 
-  struct Sums {
-    int num = 0;
-    double w = 0, x = 0, l = 0, ll = 0, lx = 0;
-  };
-  Sums sums_[6];
+  Sums sums_[6];  // of the face whose bit FitPoint::surfaces has there
   double yaw_ = 0;
   std::optional<double> offsets_[6];
 };
