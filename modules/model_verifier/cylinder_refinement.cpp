@@ -108,6 +108,7 @@ void ClimbCylinder(const Observation& observation, Solid* solid, RayEvidence* ev
           *solid = moved;
           std::swap(*evidence, *buffer);
           has_climbed = true;
+          break;  // the other way would lead back
         }
       }
       if (!has_climbed) break;
