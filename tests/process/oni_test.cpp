@@ -52,9 +52,14 @@ TEST_F(OniTest, PlaysForEverWhenAsked) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const SensorLog log = ReadLog();
   ASSERT_EQ(log.depth.size(), 30u);
-  for (size_t i = 1; i < 30; ++i) {
-    EXPECT_GT(log.depth[i].header.utime, log.depth[i - 1].header.utime);
+  EXPECT_EQ(log.color_utimes.size(), 30u);
+  size_t num_begun = 0;
+  for (size_t i = 0; i < 30; ++i) {
+    EXPECT_NEAR(static_cast<double>(log.depth[i].header.utime), 1e6 / 30 * static_cast<double>(i),
+                40 * static_cast<double>(num_begun + 1));
+    if (log.depth[i].header.frame == "000000") ++num_begun;
   }
+  EXPECT_GE(num_begun, 2u);
 }
 
 TEST_F(OniTest, PlaysAtTheRateOfTheRecording) {
