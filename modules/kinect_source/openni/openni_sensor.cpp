@@ -16,7 +16,8 @@ using openni::STATUS_OK;
 using openni::VideoMode;
 using openni::VideoStream;
 
-// Longer than a period of any mode: by then the colour of a depth image has come.
+// Longer than a period of any mode: by then the colour of a depth image has come. In a file, where
+// the next frame always comes, the clock must not decide.
 constexpr int kColorWait_ms = 50;
 constexpr int kFramesPerDiskCheck = 30;
 
@@ -199,8 +200,9 @@ std::optional<SensorFrame> OpenniSensor::Read(double timeout_s) {
   const int num_streams = color_.isValid() ? 2 : 1;
   while (!ready_) {
     const bool waits_for_color = match_ && match_->is_waiting();
-    const int timeout_ms =
-        waits_for_color ? kColorWait_ms : static_cast<int>(std::ceil(1000 * timeout_s));
+    const int timeout_ms = waits_for_color && !device_.isFile()
+                               ? kColorWait_ms
+                               : static_cast<int>(std::ceil(1000 * timeout_s));
     int index = 0;
     if (openni::OpenNI::waitForAnyStream(streams, num_streams, &index, timeout_ms) != STATUS_OK) {
       if (waits_for_color) ready_ = match_->TakeAnyhow();
