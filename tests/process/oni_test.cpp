@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -52,8 +53,18 @@ TEST_F(OniTest, PlaysForEverWhenAsked) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const SensorLog log = ReadLog();
   ASSERT_EQ(log.depth.size(), 30u);
-  for (size_t i = 1; i < 30; ++i) {
+  size_t length = 1;  // of a loop
+  while (length < 30 && log.depth[length].header.frame != "000000") ++length;
+  ASSERT_LE(length, 15u);
+  const auto has_color = [&log](size_t i) {
+    return std::count(log.color_utimes.begin(), log.color_utimes.end(), log.depth[i].header.utime);
+  };
+  for (size_t i = 0; i < 30; ++i) {
+    EXPECT_EQ(log.depth[i].header.frame, log.depth[i % length].header.frame);
+    EXPECT_EQ(has_color(i), has_color(i % length)) << i;
+    if (i == 0) continue;
     EXPECT_GT(log.depth[i].header.utime, log.depth[i - 1].header.utime);
+    EXPECT_EQ(log.depth[i].header.frame > log.depth[i - 1].header.frame, i % length > 0);
   }
 }
 

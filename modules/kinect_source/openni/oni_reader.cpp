@@ -19,41 +19,32 @@ std::string Named(int64_t number) {
 }  // namespace
 
 OniReader::OniReader(const KinectSourceConfig& config, const SensorRequest& request)
-    : request_(request), loop_(config.loop()), X_WC_(CameraPose(config)) {
+    : loop_(config.loop()), X_WC_(CameraPose(config)) {
   if (!std::filesystem::exists(request.device)) {
     throw NoSensor(request.device + ": no such file");
   }
-  Rewind();
-}
-
-void OniReader::Rewind() {
-  file_.reset();
   try {
-    file_ = std::make_unique<OpenniSensor>(request_.device, request_);
+    file_ = std::make_unique<OpenniSensor>(request.device, request);
   } catch (const NoSensor& error) {
     throw NoSensor(std::string(error.what()) + " (cut short, or no .oni file?)");
   }
-  num_read_ = 0;
 }
 
 std::optional<RecordedFrame> OniReader::Next() {
-  if (num_read_ >= file_->num_frames()) {
-    if (!loop_) return std::nullopt;
-    loop_offset_us_ = last_utime_ + kFramePeriodUs;
-    Rewind();
-  }
+  const int64_t num_frames = file_->num_frames();
+  if (!loop_ && num_read_ >= num_frames) return std::nullopt;
   RecordedFrame frame;
   frame.depth.X_WC = X_WC_;
-  frame.depth.header = {last_utime_ + kFramePeriodUs, Named(num_read_), ""};
+  frame.depth.header = {last_utime_ + kFramePeriodUs, Named(num_read_ % num_frames), ""};
   ++num_read_;
   try {
     std::optional<SensorFrame> read = file_->Read(kReadTimeout_s);
-    if (!read) {
+    if (!read || (!loop_ && read->index > num_frames)) {
       frame.depth.header.error = "the file ends before this frame";
-      num_read_ = file_->num_frames();
+      num_read_ = num_frames;
       return frame;
     }
-    frame.depth.header.utime = loop_offset_us_ + read->device_us;
+    frame.depth.header.utime = read->device_us;
     frame.depth.image = std::move(read->depth);
     frame.color = std::move(read->color);
   } catch (const DamagedFrame& error) {

@@ -23,14 +23,10 @@ class OniReader {
   std::optional<RecordedFrame> Next();
 
  private:
-  void Rewind();
-
-  const SensorRequest request_;
   const bool loop_;
   const Eigen::Isometry3d X_WC_;
   std::unique_ptr<OpenniSensor> file_;
   int64_t num_read_ = 0;
-  int64_t loop_offset_us_ = 0;
   int64_t last_utime_ = 0;
 };
 

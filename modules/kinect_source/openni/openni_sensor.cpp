@@ -16,12 +16,16 @@ using openni::STATUS_OK;
 using openni::VideoMode;
 using openni::VideoStream;
 
-// Longer than a period of any mode: by then the colour of a depth image has come.
+// Longer than a period of any mode: by then the colour of a depth image has come. In a file, where
+// the next frame always comes, the clock must not decide.
 constexpr int kColorWait_ms = 50;
 constexpr int kFramesPerDiskCheck = 30;
 
-// The player of a file crashes when the file is closed before the player has begun to play.
-void LetPlayerBegin() {
+// The thread that plays a file looks through the streams between two frames, without a lock, and
+// crashes when one is destroyed meanwhile; or when the file is closed before the thread has begun.
+// Nothing tells where it is, but left alone it soon waits for the next frame to be asked for, and
+// then may lose its streams.
+void LetPlayerWait() {
   constexpr int kLongEnough_ms = 500;
   int ignored = 0;
   openni::OpenNI::waitForAnyStream(nullptr, 0, &ignored, kLongEnough_ms);
@@ -40,9 +44,10 @@ OpenniSensor::OpenniSensor(const std::string& uri, const SensorRequest& request)
     if (device_.isFile()) ReadOnDemand();
     GuardDisk();
     if (!record_path_.empty()) Record();
+    ReadProperties();
     Start();
   } catch (...) {
-    if (device_.isFile()) LetPlayerBegin();
+    if (device_.isFile()) LetPlayerWait();
     throw;
   }
   openni::OpenNI::addDeviceDisconnectedListener(this);
@@ -50,6 +55,7 @@ OpenniSensor::OpenniSensor(const std::string& uri, const SensorRequest& request)
 
 OpenniSensor::~OpenniSensor() {
   openni::OpenNI::removeDeviceDisconnectedListener(this);
+  if (device_.isFile()) LetPlayerWait();
   // A recorder that lets go of a running stream can wait for it for ever.
   color_.stop();
   depth_.stop();
@@ -124,8 +130,9 @@ void OpenniSensor::ReadOnDemand() {
   if (playback == nullptr) throw NoSensor(uri_ + ": cannot be played");
   num_frames_ = playback->getNumberOfFrames(depth_);
   if (num_frames_ <= 0) throw NoSensor(uri_ + ": no depth frames in it");
-  playback->setRepeatEnabled(false);
-  playback->setSpeed(-1);  // a frame for each that is waited for
+  playback->setRepeatEnabled(true);  // at the end the player would not wait: see LetPlayerWait
+  playback->setSpeed(-1);            // a frame for each that is waited for
+  loop_clock_.emplace(PeriodUs());
 }
 
 void OpenniSensor::Record() {
@@ -151,6 +158,21 @@ void OpenniSensor::GuardDisk() {
   record_path_.clear();
 }
 
+// A file's must not be asked for while it plays: the player sets them again when it begins again.
+void OpenniSensor::ReadProperties() {
+  const VideoStream& stream = color_.isValid() ? color_ : depth_;
+  horizontal_fov_rad_ = stream.getHorizontalFieldOfView();
+  vertical_fov_rad_ = stream.getVerticalFieldOfView();
+  depth_is_mirrored_ = depth_.getMirroringEnabled();
+  if (!color_.isValid()) return;
+  color_is_mirrored_ = color_.getMirroringEnabled();
+  match_.emplace(PeriodUs());
+}
+
+int64_t OpenniSensor::PeriodUs() const {
+  return 1'000'000 / std::max(1, depth_.getVideoMode().getFps());
+}
+
 void OpenniSensor::Start() {
   const bool has_color = color_.isValid();
   if (has_color && color_.start() != STATUS_OK) {
@@ -159,7 +181,6 @@ void OpenniSensor::Start() {
   if (depth_.start() != STATUS_OK) {
     throw NoSensor(uri_ + ": depth stream cannot be started: " + OpenniError());
   }
-  if (has_color) match_.emplace(1'000'000 / std::max(1, depth_.getVideoMode().getFps()));
 }
 
 std::string OpenniSensor::description() const {
@@ -179,8 +200,9 @@ std::optional<SensorFrame> OpenniSensor::Read(double timeout_s) {
   const int num_streams = color_.isValid() ? 2 : 1;
   while (!ready_) {
     const bool waits_for_color = match_ && match_->is_waiting();
-    const int timeout_ms =
-        waits_for_color ? kColorWait_ms : static_cast<int>(std::ceil(1000 * timeout_s));
+    const int timeout_ms = waits_for_color && !device_.isFile()
+                               ? kColorWait_ms
+                               : static_cast<int>(std::ceil(1000 * timeout_s));
     int index = 0;
     if (openni::OpenNI::waitForAnyStream(streams, num_streams, &index, timeout_ms) != STATUS_OK) {
       if (waits_for_color) ready_ = match_->TakeAnyhow();
@@ -196,28 +218,34 @@ std::optional<SensorFrame> OpenniSensor::Read(double timeout_s) {
 
 void OpenniSensor::AddDepth(const openni::VideoFrameRef& frame) {
   if (frame.getFrameIndex() % kFramesPerDiskCheck == 0) GuardDisk();
+  const LoopClock::Time time = TimeOf(frame, LoopClock::kDepth);
   SensorFrame read;
-  read.device_us = static_cast<int64_t>(frame.getTimestamp());
-  read.index = frame.getFrameIndex();
-  read.depth = CopyDepth(frame, depth_.getMirroringEnabled());
+  read.device_us = time.device_us;
+  read.index = frame.getFrameIndex() + time.loop * num_frames_;
+  read.depth = CopyDepth(frame, depth_is_mirrored_);
   read.depth.camera = CameraOf(frame);
   ready_ = match_ ? match_->AddDepth(std::move(read)) : std::move(read);
 }
 
 void OpenniSensor::AddColor(const openni::VideoFrameRef& frame) {
-  match_->AddColor(static_cast<int64_t>(frame.getTimestamp()),
-                   CopyColor(frame, color_.getMirroringEnabled()));
+  match_->AddColor(TimeOf(frame, LoopClock::kColor).device_us,
+                   CopyColor(frame, color_is_mirrored_));
+}
+
+LoopClock::Time OpenniSensor::TimeOf(const openni::VideoFrameRef& frame, LoopClock::Stream stream) {
+  const auto device_us = static_cast<int64_t>(frame.getTimestamp());
+  if (!loop_clock_) return {0, device_us};
+  return loop_clock_->At(stream, frame.getFrameIndex(), device_us);
 }
 
 // The principal point of a device that tells only its field of view is the middle of its image. An
 // image registered to colour is that of the colour camera.
 PinholeCamera OpenniSensor::CameraOf(const openni::VideoFrameRef& frame) const {
-  const VideoStream& stream = color_.isValid() ? color_ : depth_;
   const int full_width = frame.getVideoMode().getResolutionX();
   const int full_height = frame.getVideoMode().getResolutionY();
   PinholeCamera camera{frame.getWidth(), frame.getHeight()};
-  camera.fx = 0.5 * full_width / std::tan(0.5 * stream.getHorizontalFieldOfView());
-  camera.fy = 0.5 * full_height / std::tan(0.5 * stream.getVerticalFieldOfView());
+  camera.fx = 0.5 * full_width / std::tan(0.5 * horizontal_fov_rad_);
+  camera.fy = 0.5 * full_height / std::tan(0.5 * vertical_fov_rad_);
   camera.cx = 0.5 * (full_width - 1);
   camera.cy = 0.5 * (full_height - 1);
   if (frame.getCroppingEnabled()) {

@@ -8,12 +8,13 @@
 #include <utility>
 
 #include "modules/kinect_source/color_match.h"
+#include "modules/kinect_source/loop_clock.h"
 #include "modules/kinect_source/sensor.h"
 
 namespace declutter {
 
 // A device or an .oni file with its streams running. A file is read frame by frame, as fast as Read
-// is called.
+// is called; after its last frame it begins again, and index and time of the frames go on.
 class OpenniSensor : public Sensor, private openni::OpenNI::DeviceDisconnectedListener {
  public:
   // Throws NoSensor, UnsupportedRequest.
@@ -37,9 +38,12 @@ class OpenniSensor : public Sensor, private openni::OpenNI::DeviceDisconnectedLi
   void ReadOnDemand();
   void Record();
   void GuardDisk();
+  void ReadProperties();
   void Start();
+  int64_t PeriodUs() const;
   void AddDepth(const openni::VideoFrameRef& frame);
   void AddColor(const openni::VideoFrameRef& frame);
+  LoopClock::Time TimeOf(const openni::VideoFrameRef& frame, LoopClock::Stream stream);
   PinholeCamera CameraOf(const openni::VideoFrameRef& frame) const;
 
   std::string uri_;
@@ -54,6 +58,9 @@ class OpenniSensor : public Sensor, private openni::OpenNI::DeviceDisconnectedLi
   std::optional<SensorFrame> ready_;
   std::string lacks_;  // what of the request it goes without
   int num_frames_ = 0;
+  std::optional<LoopClock> loop_clock_;  // of a file
+  double horizontal_fov_rad_ = 0, vertical_fov_rad_ = 0;
+  bool depth_is_mirrored_ = false, color_is_mirrored_ = false;
   std::atomic<bool> is_connected_{true};
 };
 
