@@ -162,18 +162,14 @@ CurvatureImage EstimateHorizontalCurvature(const PointImage& points, const Norma
   curvature.kappa.assign(points.x.size(), 0.0F);
   SideImage sides{points, normals, curvature};
   SelectSides(up_C.cast<float>(), window.max_tilt_rad, &sides);
-  for (int pass = 0; pass < RowOrder::kNumPasses; ++pass) {
-    for (int j = 0; j < points.height; ++j) {
-      if (!RowOrder::IsIn(j, pass)) continue;
-      for (int i = 0; i < points.width; ++i) {
-        const size_t begin = points.Index(i, j);
-        if (curvature.side_x[begin] >= PointImage::kFar) continue;
-        const bool is_taken =
-            pass > 0 && TakeRow(points, curvature.side_x.data(), begin, RowOrder::Source(j),
-                                window.neighborhood, {&curvature.kappa});
-        if (!is_taken) FitBlock(sides, begin, window);
-        i += PointImage::kLanes - 1;
-      }
+  for (int j = 0; j < points.height; ++j) {
+    for (int i = 0; i < points.width; ++i) {
+      const size_t begin = points.Index(i, j);
+      if (curvature.side_x[begin] >= PointImage::kFar) continue;
+      const bool is_taken = j % 2 == 1 && TakeRowAbove(points, curvature.side_x.data(), begin,
+                                                       window.neighborhood, {&curvature.kappa});
+      if (!is_taken) FitBlock(sides, begin, window);
+      i += PointImage::kLanes - 1;
     }
   }
   return curvature;

@@ -168,18 +168,15 @@ NormalImage EstimateNormals(const PointImage& points, const Neighborhood& neighb
   for (auto* plane : {&normals.x, &normals.y, &normals.z, &normals.curvature}) {
     plane->assign(points.x.size(), 0.0F);
   }
-  for (int pass = 0; pass < RowOrder::kNumPasses; ++pass) {
-    for (int j = 0; j < points.height; ++j) {
-      if (!RowOrder::IsIn(j, pass)) continue;
-      for (int i = 0; i < points.width; ++i) {
-        const size_t begin = points.Index(i, j);
-        if (!points.HasPoint(begin)) continue;
-        const bool is_taken =
-            pass > 0 && TakeRow(points, points.x.data(), begin, RowOrder::Source(j), neighborhood,
-                                {&normals.x, &normals.y, &normals.z, &normals.curvature});
-        if (!is_taken) EstimateBlock(points, begin, neighborhood, min_neighbors, &normals);
-        i += PointImage::kLanes - 1;
-      }
+  for (int j = 0; j < points.height; ++j) {
+    for (int i = 0; i < points.width; ++i) {
+      const size_t begin = points.Index(i, j);
+      if (!points.HasPoint(begin)) continue;
+      const bool is_taken =
+          j % 2 == 1 && TakeRowAbove(points, points.x.data(), begin, neighborhood,
+                                     {&normals.x, &normals.y, &normals.z, &normals.curvature});
+      if (!is_taken) EstimateBlock(points, begin, neighborhood, min_neighbors, &normals);
+      i += PointImage::kLanes - 1;
     }
   }
   return normals;

@@ -62,7 +62,7 @@ TEST(Normals, AreUnknownWithTooFewNeighbors) {
   EXPECT_FALSE(of_eight.IsKnown(points.Index(1, 1)));
 }
 
-// Read at a stride, with two of three rows taken from the one between them.
+// Read at a stride, with every other row taken from the one above.
 TEST(Normals, OfStridedWindowsAreCloseToThoseOfDenseOnes) {
   const Surface surface = NearestOf(CylinderSurface({-0.02, 0, 0.75}, 0.05),
                                     PlaneSurface({0.1, 0, 0.8}, {0.6, -0.3, -0.8}));
@@ -71,22 +71,22 @@ TEST(Normals, OfStridedWindowsAreCloseToThoseOfDenseOnes) {
   const NormalImage strided = EstimateNormals(points, {kRadius_m, 5}, 8);
   std::vector<double> angles_rad;
   int num_taken = 0;
-  for (int j = 0; j < points.height; ++j) {
+  for (int j = 1; j < points.height; ++j) {
     for (int i = 0; i < points.width; ++i) {
       const size_t p = points.Index(i, j);
       if (!dense.IsKnown(p) || !strided.IsKnown(p)) continue;
       const Eigen::Vector3f a(dense.x[p], dense.y[p], dense.z[p]);
       const Eigen::Vector3f b(strided.x[p], strided.y[p], strided.z[p]);
       angles_rad.push_back(std::asin(std::min(1.0F, a.cross(b).norm())));
-      const size_t other = points.Index(i, j + (j % 3 == 0 ? 1 : -1));
-      num_taken += j % 3 != 1 && strided.x[p] == strided.x[other];
+      num_taken += strided.x[p] == strided.x[points.Index(i, j - 1)];
     }
   }
   std::sort(angles_rad.begin(), angles_rad.end());
   ASSERT_GT(angles_rad.size(), 15000U);
   EXPECT_LT(angles_rad[angles_rad.size() / 2], 0.015);
   EXPECT_LT(angles_rad[angles_rad.size() * 99 / 100], 0.08);
-  EXPECT_GT(num_taken, 0.6 * static_cast<double>(angles_rad.size()));
+  EXPECT_GT(num_taken, 0.4 * static_cast<double>(angles_rad.size()));
+  EXPECT_LT(num_taken, 0.6 * static_cast<double>(angles_rad.size()));
 }
 
 TEST(Normals, AgreeWithPclOnTheSameNeighborhoods) {

@@ -5,21 +5,18 @@
 namespace declutter {
 namespace {
 
-constexpr float kMaxDistance = 0.25F;  // of a window's radius, to the point there
+constexpr float kMaxDistance = 0.25F;  // of a window's radius, to the point above
 
-size_t Shifted(const PointImage& points, size_t begin, int rows) {
-  return static_cast<size_t>(static_cast<ptrdiff_t>(begin) + rows * points.stride);
-}
-
-DECLUTTER_FOR_EACH_PROCESSOR bool HavePointsAt(const PointImage& points, const float* x,
-                                               size_t begin, size_t other, float radius_m) {
+DECLUTTER_FOR_EACH_PROCESSOR bool HavePointsAbove(const PointImage& points, const float* x,
+                                                  size_t begin, float radius_m) {
+  const size_t above = begin - static_cast<size_t>(points.stride);
   Lanes px, py, pz, ax, ay, az;
   LoadLanes(&x[begin], px);
   LoadLanes(&points.y[begin], py);
   LoadLanes(&points.z[begin], pz);
-  LoadLanes(&x[other], ax);
-  LoadLanes(&points.y[other], ay);
-  LoadLanes(&points.z[other], az);
+  LoadLanes(&x[above], ax);
+  LoadLanes(&points.y[above], ay);
+  LoadLanes(&points.z[above], az);
   const Lanes dx = px - ax, dy = py - ay, dz = pz - az;
   const float max_distance = kMaxDistance * radius_m;
   const LaneMask is_alone =
@@ -31,18 +28,19 @@ DECLUTTER_FOR_EACH_PROCESSOR bool HavePointsAt(const PointImage& points, const f
 
 }  // namespace
 
-bool TakeRow(const PointImage& points, const float* x, size_t begin, int source,
-             const Neighborhood& neighborhood, std::initializer_list<std::vector<float>*> planes) {
-  const size_t other = Shifted(points, begin, source);
+bool TakeRowAbove(const PointImage& points, const float* x, size_t begin,
+                  const Neighborhood& neighborhood,
+                  std::initializer_list<std::vector<float>*> planes) {
   if (neighborhood.dense_px == Neighborhood::kReadAll ||
-      !HavePointsAt(points, x, begin, other, static_cast<float>(neighborhood.radius_m)) ||
+      !HavePointsAbove(points, x, begin, static_cast<float>(neighborhood.radius_m)) ||
       SphereWindow(points, x, begin, neighborhood).stride() == 1) {
     return false;
   }
+  const size_t above = begin - static_cast<size_t>(points.stride);
   for (auto* plane : planes) {
     for (size_t lane = 0; lane < PointImage::kLanes; ++lane) {
       const bool has_point = x[begin + lane] < PointImage::kFar;
-      (*plane)[begin + lane] = has_point ? (*plane)[other + lane] : 0;
+      (*plane)[begin + lane] = has_point ? (*plane)[above + lane] : 0;
     }
   }
   return true;
