@@ -23,8 +23,8 @@ constexpr int kFramesPerDiskCheck = 30;
 
 // The player of a file, which runs beside us, looks through the streams between two frames, without
 // a lock, and crashes when one is destroyed meanwhile; or when the file is closed before it has
-// begun. Nothing tells where it is, but left alone it soon waits for the next frame to be asked for,
-// and then may lose its streams.
+// begun. Nothing tells where it is, but left alone it soon waits for the next frame to be asked
+// for, and then may lose its streams.
 void LetPlayerWait() {
   constexpr int kLongEnough_ms = 500;
   int ignored = 0;
