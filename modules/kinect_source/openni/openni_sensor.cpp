@@ -21,8 +21,8 @@ using openni::VideoStream;
 constexpr int kColorWait_ms = 50;
 constexpr int kFramesPerDiskCheck = 30;
 
-// The player of a file, which runs beside us, looks through the streams between two frames, without
-// a lock, and crashes when one is destroyed meanwhile; or when the file is closed before it has
+// The player of a file, which runs on its own, looks through the streams between two frames without
+// a lock, and crashes when one is destroyed meanwhile, or when the file is closed before it has
 // begun. Nothing tells where it is, but left alone it soon waits for the next frame to be asked
 // for, and then may lose its streams.
 void LetPlayerWait() {
