@@ -59,13 +59,9 @@ void AddEnds(int axis, double variance_low, double variance_high, SolidCovarianc
 
 // Of centre along x and y of O and radius, from the points on the side.
 Eigen::Matrix3d CovarianceOfSide(const Solid& solid, const RayEvidence& evidence, double sigma,
-                                 const DepthImage& image) {
-  const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
+                                 const Observation& observation) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Identity() / Square(kMaxSd);
-  for (int32_t pixel : evidence.explained) {
-    const int u = pixel % image.camera.width;
-    const int v = pixel / image.camera.width;
-    const Eigen::Vector3d p_O = X_OC * image.PointAt(u, v);
+  for (const Eigen::Vector3d& p_O : ExplainedPoints(solid, evidence, observation)) {
     const double distance = p_O.head<2>().norm();
     if (distance - solid.radius() < std::abs(p_O.z()) - 0.5 * solid.height()) continue;
     const Eigen::Vector3d J(-p_O.x() / distance, -p_O.y() / distance, -1);
@@ -113,7 +109,7 @@ SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends, const Ra
     J(0, 0) = J(1, 1) = 1;
     J(2, 2) = J(3, 2) = 2;
     const Eigen::Matrix4d side =
-        J * CovarianceOfSide(solid, evidence, sigma, observation.image) * J.transpose();
+        J * CovarianceOfSide(solid, evidence, sigma, observation) * J.transpose();
     const int indices[4] = {0, 1, 3, 4};
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) covariance(indices[i], indices[j]) += side(i, j);
