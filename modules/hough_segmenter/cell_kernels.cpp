@@ -87,9 +87,9 @@ HWY_INLINE float SumAgreements(const CellView& cells, const AgreementOf& agreeme
                                float min_cos) {
   const Floats f;
   Sums<1> sum;
-  ForEachVector(cells.num, [&](size_t i, const auto& mask, size_t k) HWY_ATTR {
+  ForEachVector(cells.num, [&](size_t i, size_t k, const auto& keep) HWY_ATTR {
     const auto support = hn::Mul(hn::LoadU(f, cells.weight + i), agreement_of(cells, i));
-    sum.Add(0, k, hn::IfThenElseZero(mask, support));
+    sum.Add(0, k, keep(support));
   });
   return sum[0] / (1 - min_cos);
 }
@@ -154,8 +154,8 @@ Range RangeOf(const float* values, size_t num) {
 
 float SumOf(const float* values, size_t num) {
   Sums<1> sum;
-  ForEachVector(num, [&](size_t i, const auto& mask, size_t k) HWY_ATTR {
-    sum.Add(0, k, hn::IfThenElseZero(mask, hn::LoadU(Floats(), values + i)));
+  ForEachVector(num, [&](size_t i, size_t k, const auto& keep) HWY_ATTR {
+    sum.Add(0, k, keep(hn::LoadU(Floats(), values + i)));
   });
   return sum[0];
 }
@@ -163,9 +163,9 @@ float SumOf(const float* values, size_t num) {
 float SumOfProducts(const float* a, const float* b, size_t num) {
   const Floats f;
   Sums<1> sum;
-  ForEachVector(num, [&](size_t i, const auto& mask, size_t k) HWY_ATTR {
+  ForEachVector(num, [&](size_t i, size_t k, const auto& keep) HWY_ATTR {
     const auto product = hn::Mul(hn::LoadU(f, a + i), hn::LoadU(f, b + i));
-    sum.Add(0, k, hn::IfThenElseZero(mask, product));
+    sum.Add(0, k, keep(product));
   });
   return sum[0];
 }
@@ -173,9 +173,9 @@ float SumOfProducts(const float* a, const float* b, size_t num) {
 float WeightBelow(const float* values, const float* weights, size_t num, float limit) {
   const Floats f;
   Sums<1> sum;
-  ForEachVector(num, [&](size_t i, const auto& mask, size_t k) HWY_ATTR {
+  ForEachVector(num, [&](size_t i, size_t k, const auto& keep) HWY_ATTR {
     const auto is_low = hn::Lt(hn::LoadU(f, values + i), hn::Set(f, limit));
-    sum.Add(0, k, hn::IfThenElseZero(hn::And(mask, is_low), hn::LoadU(f, weights + i)));
+    sum.Add(0, k, keep(hn::IfThenElseZero(is_low, hn::LoadU(f, weights + i))));
   });
   return sum[0];
 }

@@ -21,24 +21,46 @@ using Vector = hn::Vec<Floats>;
 
 constexpr float kLeastSquaredDistance = 1e-12f;  // [m^2]
 
-// The lanes of a vector of elements from i on that are below num > i.
+constexpr size_t kLanes = hn::MaxLanes(Floats());
+constexpr size_t kVectorsPerBlock = kCellBlock / kLanes;
+
+// The lanes of a vector of elements from i on that are below num.
 HWY_INLINE hn::Mask<Floats> LanesBelow(size_t num, size_t i) {
-  return hn::FirstN(Floats(), HWY_MIN(num - i, hn::Lanes(Floats())));
+  return hn::FirstN(Floats(), i < num ? HWY_MIN(num - i, kLanes) : 0);
 }
 
-// Calls add(i, mask, k) for vectors of elements from i on, of which those in the mask are below
-// num; k = 0 .. kCellBlock / lanes - 1 says which partial sums they belong to.
+// What clears the lanes of a vector beyond the last element.
+struct AllLanes {
+  HWY_INLINE Vector operator()(const Vector& values) const { return values; }
+};
+struct SomeLanes {
+  HWY_INLINE Vector operator()(const Vector& values) const {
+    return hn::IfThenElseZero(is_below, values);
+  }
+  hn::Mask<Floats> is_below;
+};
+
+// Calls add(i, k, keep) for vectors of elements from i on, block by block; keep(values) has 0 for
+// the elements from num on, k = 0 .. kVectorsPerBlock - 1 says which partial sums they belong to.
 template <typename AddVector>
 HWY_INLINE void ForEachVector(size_t num, AddVector add) {
-  const Floats f;
-  const size_t lanes = hn::Lanes(f);
   size_t i = 0;
   for (; i + kCellBlock <= num; i += kCellBlock) {
-    for (size_t k = 0; k < kCellBlock / lanes; ++k) {
-      add(i + k * lanes, LanesBelow(num, i + k * lanes), k);
-    }
+    for (size_t k = 0; k < kVectorsPerBlock; ++k) add(i + k * kLanes, k, AllLanes());
   }
-  for (size_t k = 0; i < num; ++k, i += lanes) add(i, LanesBelow(num, i), k);
+  if (i == num) return;
+  for (size_t k = 0; k < kVectorsPerBlock; ++k) {
+    add(i + k * kLanes, k, SomeLanes{LanesBelow(num, i + k * kLanes)});
+  }
+}
+
+// The sum of 2 * kHalf values, the upper half added to the lower one again and again. The number is
+// known to the compiler, which so needs no loop.
+template <size_t kHalf>
+HWY_INLINE float AddHalves(float* values) {
+  for (size_t i = 0; i < kHalf; ++i) values[i] += values[i + kHalf];
+  if constexpr (kHalf > 1) return AddHalves<kHalf / 2>(values);
+  return values[0];
 }
 
 // kNum sums at once, each of kCellBlock partial sums.
@@ -46,24 +68,23 @@ template <size_t kNum>
 class Sums {
  public:
   HWY_INLINE Sums() {
-    for (float& partial : partials_) partial = 0;
+    for (auto& sum : partials_) {
+      for (Vector& partial : sum) partial = hn::Zero(Floats());
+    }
   }
   HWY_INLINE void Add(size_t sum, size_t k, const Vector& values) {
-    const Floats f;
-    float* partial = partials_ + sum * kCellBlock + k * hn::Lanes(f);
-    hn::Store(hn::Add(hn::Load(f, partial), values), f, partial);
+    partials_[sum][k] = hn::Add(partials_[sum][k], values);
   }
   HWY_INLINE float operator[](size_t sum) const {
-    float halves[kCellBlock];
-    for (size_t i = 0; i < kCellBlock; ++i) halves[i] = partials_[sum * kCellBlock + i];
-    for (size_t width = kCellBlock / 2; width > 0; width /= 2) {
-      for (size_t i = 0; i < width; ++i) halves[i] += halves[i + width];
+    HWY_ALIGN float values[kCellBlock];
+    for (size_t k = 0; k < kVectorsPerBlock; ++k) {
+      hn::Store(partials_[sum][k], Floats(), values + k * kLanes);
     }
-    return halves[0];
+    return AddHalves<kCellBlock / 2>(values);
   }
 
  private:
-  HWY_ALIGN float partials_[kNum * kCellBlock];
+  Vector partials_[kNum][kVectorsPerBlock];
 };
 
 }  // namespace HWY_NAMESPACE

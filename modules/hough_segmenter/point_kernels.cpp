@@ -15,8 +15,8 @@ PointSums SumPoints(const float* x, const float* y, const float* weights, size_t
                     float origin_x, float origin_y) {
   const Floats f;
   Sums<6> sums;
-  ForEachVector(num, [&](size_t i, const auto& mask, size_t k) HWY_ATTR {
-    const auto w = hn::IfThenElseZero(mask, hn::LoadU(f, weights + i));
+  ForEachVector(num, [&](size_t i, size_t k, const auto& keep) HWY_ATTR {
+    const auto w = keep(hn::LoadU(f, weights + i));
     const auto qx = hn::Sub(hn::LoadU(f, x + i), hn::Set(f, origin_x));
     const auto qy = hn::Sub(hn::LoadU(f, y + i), hn::Set(f, origin_y));
     const auto wx = hn::Mul(w, qx), wy = hn::Mul(w, qy);
@@ -34,8 +34,8 @@ CircleSums SumCircle(const float* x, const float* y, const float* weights, size_
                      const CircleShape& circle) {
   const Floats f;
   Sums<9> sums;
-  ForEachVector(num, [&](size_t i, const auto& mask, size_t k) HWY_ATTR {
-    const auto w = hn::IfThenElseZero(mask, hn::LoadU(f, weights + i));
+  ForEachVector(num, [&](size_t i, size_t k, const auto& keep) HWY_ATTR {
+    const auto w = keep(hn::LoadU(f, weights + i));
     const auto dx = hn::Sub(hn::LoadU(f, x + i), hn::Set(f, circle.cx));
     const auto dy = hn::Sub(hn::LoadU(f, y + i), hn::Set(f, circle.cy));
     const auto square = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
