@@ -154,9 +154,8 @@ Range RangeOf(const float* values, size_t num) {
 
 float SumOf(const float* values, size_t num) {
   Sums<1> sum;
-  ForEachVector(num, [&](size_t i, size_t k, const auto& keep) HWY_ATTR {
-    sum.Add(0, k, keep(hn::LoadU(Floats(), values + i)));
-  });
+  ForEachVector(num, [&](size_t i, size_t k, const auto& keep)
+                         HWY_ATTR { sum.Add(0, k, keep(hn::LoadU(Floats(), values + i))); });
   return sum[0];
 }
 

@@ -107,6 +107,19 @@ void Angles(const float* x, const float* y, size_t num, float cx, float cy, floa
   }
 }
 
+size_t CountInside(const float* x, const float* y, size_t num, const CircleShape& circle) {
+  const Floats f;
+  const auto squared_radius = hn::Set(f, circle.r * circle.r);
+  size_t num_inside = 0;
+  for (size_t i = 0; i < num; i += hn::Lanes(f)) {
+    const auto dx = hn::Sub(hn::LoadU(f, x + i), hn::Set(f, circle.cx));
+    const auto dy = hn::Sub(hn::LoadU(f, y + i), hn::Set(f, circle.cy));
+    const auto is_inside = hn::Lt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), squared_radius);
+    num_inside += hn::CountTrue(f, hn::And(LanesBelow(num, i), is_inside));
+  }
+  return num_inside;
+}
+
 RingCount CountOnRing(const float* x, const float* y, size_t num, const CircleShape& circle,
                       float tolerance) {
   const Floats f;
@@ -140,6 +153,7 @@ HWY_EXPORT(SumCircle);
 HWY_EXPORT(PositionsAlong);
 HWY_EXPORT(Distances);
 HWY_EXPORT(Angles);
+HWY_EXPORT(CountInside);
 HWY_EXPORT(CountOnRing);
 
 }  // namespace
@@ -166,6 +180,10 @@ void Distances(const float* x, const float* y, size_t num, float cx, float cy, f
 void Angles(const float* x, const float* y, size_t num, float cx, float cy, float ax, float ay,
             float* angles) {
   HWY_DYNAMIC_DISPATCH(Angles)(x, y, num, cx, cy, ax, ay, angles);
+}
+
+size_t CountInside(const float* x, const float* y, size_t num, const CircleShape& circle) {
+  return HWY_DYNAMIC_DISPATCH(CountInside)(x, y, num, circle);
 }
 
 RingCount CountOnRing(const float* x, const float* y, size_t num, const CircleShape& circle,

@@ -44,6 +44,9 @@ void Distances(const float* x, const float* y, size_t num, float cx, float cy, f
 void Angles(const float* x, const float* y, size_t num, float cx, float cy, float ax, float ay,
             float* angles);
 
+// Points inside a circle.
+size_t CountInside(const float* x, const float* y, size_t num, const CircleShape& circle);
+
 // Points within tolerance of a circle, and those farther inside than twice that.
 struct RingCount {
   int num_on = 0;
