@@ -67,11 +67,11 @@ void SideCells::Grow() {
   }
 }
 
-const std::vector<std::vector<SideCell>>& SideCells::Gather(const std::vector<TablePoint>& points,
-                                                            int num_components, float side_m,
-                                                            float height_m, int num_pixels) {
-  cells_.resize(static_cast<size_t>(num_components));
-  for (auto& component : cells_) component.clear();
+const ReusedList<std::vector<SideCell>>& SideCells::Gather(const std::vector<TablePoint>& points,
+                                                           int num_components, float side_m,
+                                                           float height_m, int num_pixels) {
+  cells_.Clear();
+  for (int c = 0; c < num_components; ++c) cells_.Add().clear();
   std::fill(slots_.begin(), slots_.end(), Slot());
   num_used_ = 0;
   const CellPlace place_of(side_m, height_m);
