@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -94,24 +95,26 @@ void ClimbCylinder(const Observation& observation, Solid* solid, RayEvidence* ev
   // a side left where it is.
   const std::pair<double, Eigen::Vector3d> directions[] = {
       {1, Eigen::Vector3d::Zero()}, {1, -back_O}, {1, back_O}, {0, back_O}, {0, right_O}};
+  const auto climb = [&](double step, const std::pair<double, Eigen::Vector3d>& direction) {
+    for (const double sign : {-step, step}) {
+      Solid moved = *solid;
+      moved.X_CO.translation() += sign * (moved.X_CO.linear() * direction.second);
+      moved.size.head<2>().array() += 2 * sign * direction.first;
+      if (moved.radius() < 0.01) continue;
+      CastRays(moved, observation, buffer);
+      if (buffer->Balance() <= evidence->Balance()) continue;
+      *solid = moved;
+      std::swap(*evidence, *buffer);
+      return true;  // the other way would lead back
+    }
+    return false;
+  };
+  constexpr int kNumDirections = std::size(directions);
   for (const double step : kSteps) {
-    for (int round = 0; round < kMaxRounds; ++round) {
-      bool has_climbed = false;
-      for (const auto& [growth, shift_O] : directions) {
-        for (const double sign : {-step, step}) {
-          Solid moved = *solid;
-          moved.X_CO.translation() += sign * (moved.X_CO.linear() * shift_O);
-          moved.size.head<2>().array() += 2 * sign * growth;
-          if (moved.radius() < 0.01) continue;
-          CastRays(moved, observation, buffer);
-          if (buffer->Balance() <= evidence->Balance()) continue;
-          *solid = moved;
-          std::swap(*evidence, *buffer);
-          has_climbed = true;
-          break;  // the other way would lead back
-        }
-      }
-      if (!has_climbed) break;
+    // Up to the top, from where every direction leads down.
+    int num_down = 0;
+    for (int i = 0; i < kMaxRounds * kNumDirections && num_down < kNumDirections; ++i) {
+      num_down = climb(step, directions[i % kNumDirections]) ? 0 : num_down + 1;
     }
   }
 }
