@@ -144,13 +144,6 @@ HWY_INLINE int CountOverhanging(const RaySolid& solid, const RayWindow& window,
   return Count(hn::And(is_overhanging, hn::Or(is_top, hn::Not(IsKnown(n_C)))));
 }
 
-// Writes the marked values one behind the other, and anything behind the last of them. To compress
-// in a register is many times faster than hn::CompressStore on processors that do that in
-// microcode.
-HWY_INLINE void Append(const hn::Vec<Ints>& values, const hn::Mask<Ints>& is_marked, int32_t* end) {
-  hn::StoreU(hn::Compress(values, is_marked), Ints(), end);
-}
-
 // Appends the pixels on the surface whose normals do not contradict it.
 template <bool kIsCylinder>
 HWY_INLINE void Explain(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
@@ -175,8 +168,8 @@ HWY_INLINE void Explain(const RaySolid& solid, const RayWindow& window, const Ra
   counts->fit += hn::GetLane(hn::SumOfLanes(i32, fixed));
   const auto is_stored = hn::RebindMask(i32, is_explained);
   const auto index = hn::Iota(i32, v * window.columns + u);
-  Append(index, is_stored, counts->explained + counts->num_explained);
-  Append(fixed, is_stored, counts->fits + counts->num_explained);
+  Append(i32, index, is_stored, counts->explained + counts->num_explained);
+  Append(i32, fixed, is_stored, counts->fits + counts->num_explained);
   counts->num_explained += Count(is_explained);
 }
 
@@ -206,7 +199,7 @@ HWY_INLINE void SortHits(const RaySolid& solid, const RayWindow& window, const R
   if (kIsCylinder) {
     const auto is_hollow =
         hn::And(hn::And(is_other, passage.through_top), hn::Lt(distance, hn::Zero(f)));
-    Append(hn::Iota(i32, v * window.columns + u), hn::RebindMask(i32, is_hollow),
+    Append(i32, hn::Iota(i32, v * window.columns + u), hn::RebindMask(i32, is_hollow),
            counts->hollow + counts->num_hollow);
     counts->num_hollow += Count(is_hollow);
     is_other = hn::AndNot(is_hollow, is_other);
