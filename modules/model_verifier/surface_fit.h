@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "modules/model_verifier/fit_points.h"
 #include "modules/model_verifier/ray_casting.h"
 
@@ -19,12 +16,5 @@ struct FitBuffers {
   FitPoints points;
   RayEvidence evidence;
 };
-
-// 1 / variance of the distance to a surface whose normal has this cosine with the ray. Half the
-// sensor's noise does not average out at grazing rays, which bounds the weight.
-inline double Weight(const FitPoint& point, double cosine) {
-  const double sigma = point.sigma * std::max(std::abs(cosine), 0.5);
-  return 1 / (sigma * sigma);
-}
 
 }  // namespace declutter
