@@ -62,9 +62,9 @@ struct RayEvidence {
 RayEvidence CastRays(const Solid& solid, const Observation& observation);
 void CastRays(const Solid& solid, const Observation& observation, RayEvidence* replaced);
 
-// The measured points that a solid explains, in O.
-std::vector<Eigen::Vector3d> ExplainedPoints(const Solid& solid, const RayEvidence& evidence,
-                                             const Observation& observation);
+// The measured points that a solid explains, in O [m], in place of what points_O held.
+void FindExplainedPoints(const Solid& solid, const RayEvidence& evidence,
+                         const Observation& observation, std::vector<Eigen::Vector3d>* points_O);
 
 // [px] of a grid with points above the support plane within reach_m of a solid.
 int NumNear(const Solid& solid, double reach_m, const Observation& observation);

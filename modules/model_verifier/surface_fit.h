@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "modules/model_verifier/fit_points.h"
 #include "modules/model_verifier/ray_casting.h"
 
@@ -15,6 +18,7 @@ inline constexpr int kMinFitPoints = 60;    // [px] that move a face
 struct FitBuffers {
   FitPoints points;
   RayEvidence evidence;
+  std::vector<Eigen::Vector3d> explained_O;
 };
 
 }  // namespace declutter
