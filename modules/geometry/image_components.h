@@ -1,19 +1,39 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace declutter {
 
-// Connected components of the marked pixels of an image.
+// Pixels begin .. end - 1 of one row, all of one component.
+struct ComponentRun {
+  size_t begin = 0, end = 0;
+  int32_t component = -1;
+};
+
+// Connected components of the marked pixels of an image, numbered in row-major order of their first
+// pixels.
+struct ComponentRuns {
+  std::vector<ComponentRun> runs;   // of all marked pixels, in row-major order
+  std::vector<int32_t> num_pixels;  // per component
+
+  // What finding them needs meanwhile: the first run of each row, and the set of each run, named by
+  // its first one.
+  std::vector<size_t> first_run, parent;
+};
+
+// The same, pixel by pixel.
 struct ImageComponents {
-  std::vector<int32_t> label;       // per pixel: 0 .. num_pixels.size() - 1, in row-major order of
-                                    // first pixels; -1 where not marked
+  std::vector<int32_t> label;       // 0 .. num_pixels.size() - 1; -1 where not marked
   std::vector<int32_t> num_pixels;  // per component
 };
 
 // Joins marked pixels that touch (8 neighbours) and whose values differ by at most max_step. mask
-// and values are row-major, width * height long.
+// and values are row-major, width * height long. `recycled` gives its memory to the result.
+ComponentRuns FindComponents(int width, int height, const std::vector<uint8_t>& mask,
+                             const std::vector<float>& values, float max_step,
+                             ComponentRuns recycled = {});
 ImageComponents LabelComponents(int width, int height, const std::vector<uint8_t>& mask,
                                 const std::vector<float>& values, float max_step);
 

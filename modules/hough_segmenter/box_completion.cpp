@@ -17,52 +17,55 @@ bool IsGraspable(const Rectangle& r, float max_extent) {
 
 }  // namespace
 
-std::vector<Hypothesis> CompleteBoxes(const HoughSegmenterConfig& config,
-                                      const Surfaces& surfaces) {
-  const auto max_extent = static_cast<float>(config.max_box_extent_m());
-  const auto max_joined = static_cast<size_t>(config.max_hypotheses());
-  const std::vector<Face> faces = WithJoinedFaces(surfaces.faces, max_extent, max_joined);
-  std::vector<Rectangle> rectangles;
-  std::vector<char> has_depth(faces.size(), 0);
-  for (const TopPatch& patch : WithJoinedPatches(surfaces.tops, max_extent, max_joined)) {
-    std::vector<const Face*> attached;
-    for (size_t i = 0; i < faces.size(); ++i) {
-      if (!IsAttached(faces[i], patch)) continue;
-      attached.push_back(&faces[i]);
-      if (const auto grown = GrowOver(faces[i], patch, max_extent)) {
-        rectangles.push_back(*grown);
-        has_depth[i] = 1;
-      }
-    }
-    std::vector<Eigen::Vector2f> axes = {MinimumAreaAxis(patch)};
-    for (const Face* face : attached) axes.push_back(face->model.tangent());
-    for (const Eigen::Vector2f& axis : axes) {
-      Rectangle r = Around(patch, axis);
-      SnapToFaces(attached, &r);
-      rectangles.push_back(r);
+void SolidCompletion::AddRectangles(const TopPatch& patch) {
+  const auto max_extent = static_cast<float>(config_.max_box_extent_m());
+  attached_.clear();
+  for (size_t i = 0; i < faces_.size(); ++i) {
+    if (!IsAttached(faces_[i], patch)) continue;
+    attached_.push_back(&faces_[i]);
+    if (const auto grown = rectangle_finder_.GrowOver(faces_[i], patch, max_extent)) {
+      rectangles_.push_back(*grown);
+      has_depth_[i] = 1;
     }
   }
-  for (size_t i = 0; i < faces.size(); ++i) {
-    for (size_t j = 0; j < faces.size(); ++j) {
-      if (i == j || faces[i].component != faces[j].component) continue;
-      if (const auto corner = FromCorner(faces[i], faces[j])) {
-        rectangles.push_back(*corner);
-        has_depth[i] = has_depth[j] = 1;
+  const auto add_around = [&](const Eigen::Vector2f& axis) {
+    rectangles_.push_back(rectangle_finder_.Around(patch, axis));
+    SnapToFaces(attached_, &rectangles_.back());
+  };
+  add_around(MinimumAreaAxis(patch));
+  for (const Face* face : attached_) add_around(face->model.tangent());
+}
+
+void SolidCompletion::CompleteBoxes(const std::vector<Face>& faces, const TopPatches& tops,
+                                    std::vector<Hypothesis>* hypotheses) {
+  const auto max_extent = static_cast<float>(config_.max_box_extent_m());
+  const auto max_joined = static_cast<size_t>(config_.max_hypotheses());
+  faces_ = faces;
+  AppendJoinedFaces(max_extent, max_joined, &faces_);
+  JoinPatches(tops, max_extent, max_joined, &joined_tops_);
+  has_depth_.assign(faces_.size(), 0);
+  rectangles_.clear();
+  for (const TopPatch& patch : tops) AddRectangles(patch);
+  for (const TopPatch& patch : joined_tops_) AddRectangles(patch);
+  for (size_t i = 0; i < faces_.size(); ++i) {
+    for (size_t j = 0; j < faces_.size(); ++j) {
+      if (i == j || faces_[i].component != faces_[j].component) continue;
+      if (const auto corner = FromCorner(faces_[i], faces_[j])) {
+        rectangles_.push_back(*corner);
+        has_depth_[i] = has_depth_[j] = 1;
       }
     }
   }
-  for (size_t i = 0; i < faces.size(); ++i) {
-    if (has_depth[i]) continue;
-    Rectangle r = FromFace(faces[i]);
-    r.b_max = r.b_min + std::clamp(0.5f * faces[i].model.length(), 0.03f, 0.10f);
+  for (size_t i = 0; i < faces_.size(); ++i) {
+    if (has_depth_[i]) continue;
+    Rectangle r = FromFace(faces_[i]);
+    r.b_max = r.b_min + std::clamp(0.5f * faces_[i].model.length(), 0.03f, 0.10f);
     r.depth_is_assumed = true;
-    rectangles.push_back(r);
+    rectangles_.push_back(r);
   }
-  std::vector<Hypothesis> hypotheses;
-  for (const Rectangle& r : rectangles) {
-    if (IsGraspable(r, max_extent)) hypotheses.push_back(MakeBox(r));
+  for (const Rectangle& r : rectangles_) {
+    if (IsGraspable(r, max_extent)) hypotheses->push_back(MakeBox(r));
   }
-  return hypotheses;
 }
 
 }  // namespace declutter

@@ -20,16 +20,14 @@ Hypothesis MakeCylinder(const CircleModel& circle, int component) {
 }
 
 // The disc on top of an arc: most of the patch lies inside the circle, at about its upper end.
-const TopPatch* DiscOf(const CircleModel& circle, const std::vector<TopPatch>& tops) {
+const TopPatch* DiscOf(const CircleModel& circle, const TopPatches& tops) {
   const TopPatch* best = nullptr;
   for (const TopPatch& patch : tops) {
     if (std::abs(patch.height - circle.z_max) > kTopTolerance || patch.height <= circle.z_min) {
       continue;
     }
-    size_t num_inside = 0;
-    for (const Eigen::Vector2f& p : patch.points) {
-      num_inside += (p - circle.c).norm() < circle.r + 0.006f;
-    }
+    const size_t num_inside = CountInside(patch.points.x(), patch.points.y(), patch.points.size(),
+                                          {circle.c.x(), circle.c.y(), circle.r + 0.006f});
     if (static_cast<double>(num_inside) < 0.8 * static_cast<double>(patch.points.size())) continue;
     if (best == nullptr || patch.points.size() > best->points.size()) best = &patch;
   }
@@ -38,32 +36,30 @@ const TopPatch* DiscOf(const CircleModel& circle, const std::vector<TopPatch>& t
 
 }  // namespace
 
-std::vector<Hypothesis> CompleteCylinders(const HoughSegmenterConfig& config,
-                                          const Surfaces& surfaces) {
-  std::vector<Hypothesis> hypotheses;
-  for (const Arc& arc : surfaces.arcs) {
+void SolidCompletion::CompleteCylinders(const std::vector<Arc>& arcs, const TopPatches& tops,
+                                        std::vector<Hypothesis>* hypotheses) {
+  for (const Arc& arc : arcs) {
     CircleModel circle = arc.model;
-    const TopPatch* disc = DiscOf(circle, surfaces.tops);
+    const TopPatch* disc = DiscOf(circle, tops);
     if (disc != nullptr) circle.z_max = disc->height;
     Hypothesis hypothesis = MakeCylinder(circle, arc.component);
     hypothesis.num_votes = arc.num_votes;
     hypothesis.num_inliers =
         arc.num_points + (disc != nullptr ? static_cast<int>(disc->points.size()) : 0);
     hypothesis.score = arc.agreement;
-    hypotheses.push_back(hypothesis);
+    hypotheses->push_back(hypothesis);
   }
-  for (const TopPatch& patch : surfaces.tops) {
-    auto circle = FitDisc(patch, static_cast<float>(config.min_radius_m()),
-                          static_cast<float>(config.max_radius_m()));
+  for (const TopPatch& patch : tops) {
+    auto circle = disc_fitter_.Fit(patch, static_cast<float>(config_.min_radius_m()),
+                                   static_cast<float>(config_.max_radius_m()));
     if (!circle) continue;
     circle->z_min = patch.height - kTopOnlyDepth;
     circle->z_max = patch.height;
     Hypothesis hypothesis = MakeCylinder(*circle, patch.component);
     hypothesis.num_inliers = static_cast<int>(patch.points.size());
     hypothesis.score = 0.5f;
-    hypotheses.push_back(hypothesis);
+    hypotheses->push_back(hypothesis);
   }
-  return hypotheses;
 }
 
 }  // namespace declutter

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -33,11 +34,10 @@ std::optional<CircleModel> CircleThrough(const Eigen::Vector2f& a, const Eigen::
   return circle;
 }
 
-Points EveryNth(const Points& points, size_t max_num) {
+void TakeEveryNth(const Points& points, size_t max_num, PlanarPoints* some) {
   const size_t stride = points.size() / max_num + 1;
-  Points some;
-  for (size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
-  return some;
+  some->Clear();
+  for (size_t i = 0; i < points.size(); i += stride) some->Add(points[i]);
 }
 
 // Least squares on the edge points near the circle.
@@ -61,7 +61,7 @@ void FitToEdge(const Points& edge, float tolerance, CircleModel* circle) {
 
 // [rad] of the circle on which there are edge points.
 float ArcOf(const Points& edge, const CircleModel& circle, float tolerance) {
-  std::vector<char> is_covered(static_cast<size_t>(2 * M_PI / kArcBin) + 1, 0);
+  std::array<char, static_cast<size_t>(2 * M_PI / kArcBin) + 1> is_covered{};
   for (const Eigen::Vector2f& p : edge) {
     const Eigen::Vector2f q = p - circle.c;
     if (std::abs(q.norm() - circle.r) > tolerance) continue;
@@ -72,48 +72,24 @@ float ArcOf(const Points& edge, const CircleModel& circle, float tolerance) {
 }
 
 bool Contains(const TopPatch& patch, const CircleModel& circle, float tolerance) {
-  int num_outside = 0;
-  for (const Eigen::Vector2f& p : patch.points) {
-    num_outside += (p - circle.c).norm() > circle.r + tolerance;
-  }
-  return static_cast<float>(num_outside) < kMaxOutside * static_cast<float>(patch.points.size());
+  const size_t num = patch.points.size();
+  const size_t num_inside = CountInside(patch.points.x(), patch.points.y(), num,
+                                        {circle.c.x(), circle.c.y(), circle.r + tolerance});
+  return static_cast<float>(num - num_inside) < kMaxOutside * static_cast<float>(num);
 }
 
-struct ScoredCircle {
-  CircleModel circle;
-  int score = 0;  // edge points
+}  // namespace
 
-  // The first of the best ones.
-  void Replace(const CircleModel& other, int other_score) {
-    if (other_score > score) *this = {other, other_score};
-  }
-};
-
-// The best circles through three of the corners. On an edge that is all of a disc most points are
-// on the circle; on one that has other parts too none are far inside. Scores 0: none.
-struct BestCircles {
-  ScoredCircle whole;
-  ScoredCircle part;
-};
-
-BestCircles FindBest(const Points& edge, float min_radius_m, float max_radius_m, float tolerance,
-                     size_t* num_scored) {
-  const Points corners = EveryNth(edge, kMaxCorners);
-  const Points scored = EveryNth(edge, kMaxScored);
-  *num_scored = scored.size();
-  std::vector<float> x(scored.size() + kCellBlock), y(x.size());
-  for (size_t i = 0; i < scored.size(); ++i) {
-    x[i] = scored[i].x();
-    y[i] = scored[i].y();
-  }
+DiscFitter::BestCircles DiscFitter::FindBest(float min_radius_m, float max_radius_m,
+                                             float tolerance) const {
   BestCircles best;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    for (size_t j = i + 1; j < corners.size(); ++j) {
-      for (size_t k = j + 1; k < corners.size(); ++k) {
-        const auto circle = CircleThrough(corners[i], corners[j], corners[k]);
+  for (size_t i = 0; i < corners_.size(); ++i) {
+    for (size_t j = i + 1; j < corners_.size(); ++j) {
+      for (size_t k = j + 1; k < corners_.size(); ++k) {
+        const auto circle = CircleThrough(corners_[i], corners_[j], corners_[k]);
         if (!circle || circle->r < min_radius_m || circle->r > max_radius_m) continue;
         const RingCount count =
-            CountOnRing(x.data(), y.data(), scored.size(), ShapeOf(*circle), tolerance);
+            CountOnRing(scored_.x(), scored_.y(), scored_.size(), ShapeOf(*circle), tolerance);
         best.whole.Replace(*circle, count.num_on);
         best.part.Replace(*circle, count.num_on - 2 * count.num_inside);
       }
@@ -122,16 +98,15 @@ BestCircles FindBest(const Points& edge, float min_radius_m, float max_radius_m,
   return best;
 }
 
-}  // namespace
-
-std::optional<CircleModel> FitDisc(const TopPatch& patch, float min_radius_m, float max_radius_m) {
+std::optional<CircleModel> DiscFitter::Fit(const TopPatch& patch, float min_radius_m,
+                                           float max_radius_m) {
   const float tolerance = std::max(kMaxEdgeError, 2 * patch.sigma);
-  size_t num_scored = 0;
-  const BestCircles best =
-      FindBest(patch.free_edge, min_radius_m, max_radius_m, tolerance, &num_scored);
+  TakeEveryNth(patch.free_edge, kMaxCorners, &corners_);
+  TakeEveryNth(patch.free_edge, kMaxScored, &scored_);
+  const BestCircles best = FindBest(min_radius_m, max_radius_m, tolerance);
   const auto has_share = [&](const ScoredCircle& scored, float min_share) {
     return scored.score > 0 &&
-           static_cast<float>(scored.score) >= min_share * static_cast<float>(num_scored);
+           static_cast<float>(scored.score) >= min_share * static_cast<float>(scored_.size());
   };
   const auto arc = [&](const CircleModel& circle) {
     return std::min(ArcOf(patch.free_edge, circle, tolerance), static_cast<float>(M_PI));

@@ -56,17 +56,18 @@ class EdgeTracer {
 
 void AddFreeEdges(const Tabletop& tabletop, const Eigen::Isometry3d& X_TC,
                   const std::vector<int32_t>& labels, const std::vector<size_t>& pixels,
-                  std::vector<TopPatch>* patches) {
+                  TopPatches* patches) {
   constexpr int kSteps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   const EdgeTracer tracer(tabletop, X_TC, labels);
   const int thinning = tabletop.thinning;
   const int columns = (tabletop.objects.camera.width + thinning - 1) / thinning;
   const int rows = static_cast<int>(labels.size()) / columns;
+  int row = 0;
   for (const size_t pixel : pixels) {
     const int32_t label = labels[pixel];
     if (label < 0) continue;
-    const int row = static_cast<int>(pixel) / columns;
-    const int column = static_cast<int>(pixel) % columns;
+    while (static_cast<int>(pixel) >= (row + 1) * columns) ++row;
+    const int column = static_cast<int>(pixel) - row * columns;
     if (row == 0 || column == 0 || row + 1 == rows || column + 1 == columns) continue;
     TopPatch& patch = (*patches)[static_cast<size_t>(label)];
     for (const auto& [du, dv] : kSteps) {

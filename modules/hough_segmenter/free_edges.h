@@ -15,6 +15,6 @@ namespace declutter {
 // thinned image, row-major, -1: none; pixels are those that may have one, in order.
 void AddFreeEdges(const Tabletop& tabletop, const Eigen::Isometry3d& X_TC,
                   const std::vector<int32_t>& labels, const std::vector<size_t>& pixels,
-                  std::vector<TopPatch>* patches);
+                  TopPatches* patches);
 
 }  // namespace declutter

@@ -21,21 +21,23 @@ std::vector<float> Noisy(const std::vector<float>& faces, int num) {
   return heights;
 }
 
-TEST(HeightsBetweenFaces, PartsFacesThatAreSixSigmaApart) {
-  const std::vector<float> limits =
-      HeightsBetweenFaces(Noisy({0.050f, 0.056f, 0.062f}, 500), kSigma, 60);
+TEST(LimitsBetweenFaces, PartsFacesThatAreSixSigmaApart) {
+  HeightBands bands;
+  const std::vector<float>& limits =
+      bands.LimitsBetweenFaces(Noisy({0.050f, 0.056f, 0.062f}, 500), kSigma, 60);
   EXPECT_THAT(limits, testing::ElementsAre(testing::FloatNear(0.053f, 0.001f),
                                            testing::FloatNear(0.059f, 0.001f)));
 }
 
-TEST(HeightsBetweenFaces, LeavesOneFaceWhole) {
-  EXPECT_THAT(HeightsBetweenFaces(Noisy({0.05f}, 2000), kSigma, 60), testing::IsEmpty());
+TEST(LimitsBetweenFaces, LeavesOneFaceWhole) {
+  EXPECT_THAT(HeightBands().LimitsBetweenFaces(Noisy({0.05f}, 2000), kSigma, 60),
+              testing::IsEmpty());
 }
 
-TEST(HeightsBetweenFaces, LeavesHeightsThatFewHaveWithTheirNeighbours) {
+TEST(LimitsBetweenFaces, LeavesHeightsThatFewHaveWithTheirNeighbours) {
   std::vector<float> heights = Noisy({0.05f}, 500);
   heights.insert(heights.end(), 20, 0.06f);
-  EXPECT_THAT(HeightsBetweenFaces(heights, kSigma, 60), testing::IsEmpty());
+  EXPECT_THAT(HeightBands().LimitsBetweenFaces(heights, kSigma, 60), testing::IsEmpty());
 }
 
 TEST(SplitAtHeights, PartsTwoFacesAcrossAStepThatNoiseBridges) {
@@ -48,9 +50,10 @@ TEST(SplitAtHeights, PartsTwoFacesAcrossAStepThatNoiseBridges) {
   }
   heights[10 * kColumns + 20] = 0.0525f;
   const std::vector<uint8_t> mask(heights.size(), 1);
-  ImageComponents patches = LabelComponents(kColumns, kRows, mask, heights, 0.006f);
+  const std::vector<int32_t> labels(heights.size(), 0);
+  ComponentRuns patches = FindComponents(kColumns, kRows, mask, heights, 0.006f);
   ASSERT_EQ(patches.num_pixels.size(), 1u);
-  SplitAtHeights(kColumns, kRows, heights, 0.006f, 60, &patches);
+  ASSERT_TRUE(HeightBands().Split(kColumns, kRows, mask, heights, 0.006f, 60, labels, &patches));
   ASSERT_EQ(patches.num_pixels.size(), 2u);
   // The boundary may be off by a column.
   EXPECT_NEAR(patches.num_pixels[0], 400, kRows);

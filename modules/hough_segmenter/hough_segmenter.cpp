@@ -66,15 +66,17 @@ HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config, SideDetector 
     : config_(config),
       detect_(detect),
       side_search_(config),
-      section_search_(SectionConfig(config)) {}
+      section_search_(SectionConfig(config)),
+      completion_(config) {}
 
-SideDetections HoughSegmenter::FindSides(const FeatureCloud& features, int num_pixels) {
+void HoughSegmenter::FindSides(const FeatureCloud& features, int num_pixels) {
   const std::vector<std::vector<SideCell>>& cells =
       cells_.Gather(points_, features.num_components, static_cast<float>(config_.cell_side_m()),
                     static_cast<float>(config_.cell_height_m()), num_pixels);
   size_t num_cells = 0;
   for (const auto& component : cells) num_cells += component.size();
-  SideDetections sides;
+  detections_.faces.clear();
+  detections_.arcs.clear();
   int64_t num_tests_left = config_.max_cell_tests();
   int num_cut_short = 0;
   for (size_t c = 0; c < cells.size(); ++c) {
@@ -86,7 +88,7 @@ SideDetections HoughSegmenter::FindSides(const FeatureCloud& features, int num_p
     fitter.Assign(features.mode, cells[c],
                   ComponentSeed(config_.seed(), features.header.utime, component),
                   static_cast<int64_t>(share * static_cast<double>(num_tests_left)));
-    detect_(component, &side_search_, &sides);
+    detect_(component, &side_search_, &detections_);
     num_cut_short += fitter.is_spent();
     num_tests_left = std::max(int64_t{0}, num_tests_left - fitter.num_tests());
     num_cells -= cells[c].size();
@@ -96,7 +98,6 @@ SideDetections HoughSegmenter::FindSides(const FeatureCloud& features, int num_p
                   std::to_string(cells.size()) + " components (max_cell_tests " +
                   std::to_string(config_.max_cell_tests()) + ")";
   }
-  return sides;
 }
 
 void HoughSegmenter::KeepBest(std::vector<Hypothesis>* hypotheses) {
@@ -126,22 +127,20 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCl
   const Eigen::Isometry3d X_TC = TableFrame(list.planes[0]);
   FindTablePoints(tabletop, features, X_TC, &points_);
   const int num_pixels = tabletop.thinning * tabletop.thinning;  // that a point stands for
-  SideDetections sides = FindSides(features, num_pixels);
-  Surfaces surfaces{std::move(sides.faces), std::move(sides.arcs),
-                    tops_.Find(points_, tabletop, X_TC, kMaxTopStep, kMinTopPixels / num_pixels)};
+  FindSides(features, num_pixels);
+  const TopPatches& tops =
+      tops_.Find(points_, tabletop, X_TC, kMaxTopStep, kMinTopPixels / num_pixels);
   sides_.Assign(points_, [](const TablePoint& point) { return point.is_side(); });
-  MeasureExtents(sides_, &surfaces);
+  completion_.MeasureExtents(sides_, &detections_);
 
-  const auto propose = [&list](const std::vector<Hypothesis>& hypotheses) {
-    list.hypotheses.insert(list.hypotheses.end(), hypotheses.begin(), hypotheses.end());
-  };
-  propose(CompleteBoxes(config_, surfaces));
-  propose(CompleteCylinders(config_, surfaces));
-  AddSidesBelowTops(sides_, &list.hypotheses);
+  completion_.CompleteBoxes(detections_.faces, tops, &list.hypotheses);
+  completion_.CompleteCylinders(detections_.arcs, tops, &list.hypotheses);
+  completion_.AddSidesBelowTops(sides_, &list.hypotheses);
   if (list.mode == FeatureMode::kDefault) {
     slants_.Assign(points_, [](const TablePoint& point) { return point.is_slanted(); });
-    propose(
-        FindLyingCylinders(config_, points_, slants_, surfaces.tops, &cells_, &section_search_));
+    const std::vector<Hypothesis> lying =
+        FindLyingCylinders(config_, points_, slants_, tops, &cells_, &section_search_);
+    list.hypotheses.insert(list.hypotheses.end(), lying.begin(), lying.end());
   }
   KeepBest(&list.hypotheses);
   const Eigen::Isometry3d X_CT = X_TC.inverse();

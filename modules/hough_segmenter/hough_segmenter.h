@@ -9,6 +9,7 @@
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
 #include "modules/hough_segmenter/point_grid.h"
 #include "modules/hough_segmenter/side_voting.h"
+#include "modules/hough_segmenter/solid_completion.h"
 #include "modules/hough_segmenter/top_patches.h"
 
 namespace declutter {
@@ -28,8 +29,8 @@ class HoughSegmenter {
   const std::string& shortfall() const { return shortfall_; }
 
  private:
-  // The faces and arcs among points_, each of which stands for num_pixels.
-  SideDetections FindSides(const FeatureCloud& features, int num_pixels);
+  // Sets detections_ to the faces and arcs among points_, each of which stands for num_pixels.
+  void FindSides(const FeatureCloud& features, int num_pixels);
   // Sorts hypotheses in T by their points, without those alike, and keeps max_hypotheses of them.
   void KeepBest(std::vector<Hypothesis>* hypotheses);
 
@@ -41,9 +42,11 @@ class HoughSegmenter {
   SideCells cells_;
   SideSearch side_search_;
   SideSearch section_search_;
+  SideDetections detections_;
   TopPatchFinder tops_;
   PointGrid sides_;
   PointGrid slants_;
+  SolidCompletion completion_;
 };
 
 }  // namespace declutter

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "modules/geometry/marked_pixels.h"
+
 namespace declutter {
 namespace {
 
@@ -22,49 +24,63 @@ void InlierFilters::KeepIf(Condition condition, CellArrays* inliers) {
 bool InlierFilters::HasAtMost(size_t max_num, float max_gap, const CellArrays& inliers) {
   clusters_.clear();
   if (inliers.empty()) return true;
-  const Range range = RangeOf(values_.data(), inliers.size());
-  low_ = range.low;
-  bins_per_unit_ = static_cast<float>(kBinsPerGap) / max_gap;
-  used_bins_.Clear(BinOf(range.high) + 1);
-  for (size_t i = 0; i < inliers.size(); ++i) used_bins_.Add(BinOf(values_[i]));
-  used_bins_.ForEach([this](size_t bin) {
+  const size_t num = inliers.size();
+  range_ = RangeOf(values_.data(), num);
+  const float bins_per_unit = static_cast<float>(kBinsPerGap) / max_gap;
+  const auto bin_of = [=](float value) {
+    return static_cast<int32_t>((value - range_.low) * bins_per_unit);
+  };
+  const auto num_bins = static_cast<size_t>(bin_of(range_.high)) + 1;
+  bins_.resize(num);
+  for (size_t i = 0; i < num; ++i) bins_[i] = bin_of(values_[i]);
+  is_used_.assign(num_bins, 0);
+  for (const int32_t bin : bins_) is_used_[static_cast<size_t>(bin)] = 1;
+  ForEachMarked(is_used_.data(), 0, num_bins, [this](size_t bin) {
     if (clusters_.empty() || bin > clusters_.back().last_bin + kBinsPerGap) {
       clusters_.push_back({bin, bin, 0});
     }
     clusters_.back().last_bin = bin;
   });
   if (clusters_.size() <= max_num) return true;
+  KeepHeaviest(max_num, inliers);
+  return false;
+}
+
+void InlierFilters::KeepHeaviest(size_t max_num, const CellArrays& inliers) {
+  bin_weights_.assign(is_used_.size(), 0);
   const float* weight = inliers.field(Field::kWeight);
   for (size_t i = 0; i < inliers.size(); ++i) {
-    const auto is_before = [](const Cluster& cluster, size_t bin) {
-      return cluster.last_bin < bin;
-    };
-    std::lower_bound(clusters_.begin(), clusters_.end(), BinOf(values_[i]), is_before)->weight +=
-        weight[i];
+    bin_weights_[static_cast<size_t>(bins_[i])] += weight[i];
+  }
+  for (Cluster& cluster : clusters_) {
+    for (size_t bin = cluster.first_bin; bin <= cluster.last_bin; ++bin) {
+      cluster.weight += bin_weights_[bin];
+    }
   }
   std::partial_sort(clusters_.begin(), clusters_.begin() + static_cast<std::ptrdiff_t>(max_num),
                     clusters_.end(), [](const Cluster& a, const Cluster& b) {
                       return a.weight != b.weight ? a.weight > b.weight : a.first_bin < b.first_bin;
                     });
   clusters_.resize(max_num);
-  return false;
 }
 
 void InlierFilters::KeepClusters(CellArrays* inliers) {
-  KeepIf(
-      [this](size_t i) {
-        const auto bin = BinOf(values_[i]);
-        return std::any_of(clusters_.begin(), clusters_.end(), [bin](const Cluster& cluster) {
-          return bin >= cluster.first_bin && bin <= cluster.last_bin;
-        });
-      },
-      inliers);
+  std::fill(is_used_.begin(), is_used_.end(), uint8_t{0});
+  for (const Cluster& cluster : clusters_) {
+    const auto begin = is_used_.begin();
+    std::fill(begin + static_cast<std::ptrdiff_t>(cluster.first_bin),
+              begin + static_cast<std::ptrdiff_t>(cluster.last_bin) + 1, uint8_t{1});
+  }
+  KeepIf([this](size_t i) { return is_used_[static_cast<size_t>(bins_[i])] != 0; }, inliers);
 }
 
-float InlierFilters::SpanOf(const Cluster& cluster, size_t num_inliers) const {
+float InlierFilters::SpanOf(const Cluster& cluster) const {
+  if (cluster.first_bin == 0 && cluster.last_bin + 1 == is_used_.size()) {
+    return range_.high - range_.low;
+  }
   Range span{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
-  for (size_t i = 0; i < num_inliers; ++i) {
-    const auto bin = BinOf(values_[i]);
+  for (size_t i = 0; i < bins_.size(); ++i) {
+    const auto bin = static_cast<size_t>(bins_[i]);
     if (bin < cluster.first_bin || bin > cluster.last_bin) continue;
     span = {std::min(span.low, values_[i]), std::max(span.high, values_[i])};
   }
@@ -105,7 +121,7 @@ void InlierFilters::KeepArcs(float max_gap_m, size_t max_arcs, CircleModel* circ
   const float max_gap_rad = 2 * max_gap_m / std::max(circle->r, max_gap_m);
   const bool has_few = HasAtMost(max_arcs, max_gap_rad, *inliers);
   circle->arc = 0;
-  for (const Cluster& cluster : clusters_) circle->arc += SpanOf(cluster, num);
+  for (const Cluster& cluster : clusters_) circle->arc += SpanOf(cluster);
   if (!has_few) KeepClusters(inliers);
 }
 

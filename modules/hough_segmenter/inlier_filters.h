@@ -1,10 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "modules/geometry/feature_cloud.h"
 #include "modules/hough_segmenter/cell_arrays.h"
-#include "modules/hough_segmenter/cell_set.h"
 #include "modules/hough_segmenter/model_fits.h"
 
 namespace declutter {
@@ -46,8 +46,9 @@ class InlierFilters {
   // Finds the clusters of the values_ of inliers: where nothing lies for max_gap (to an eighth of
   // it), a new one begins. Keeps the `max_num` heaviest in clusters_; false when there are more.
   bool HasAtMost(size_t max_num, float max_gap, const CellArrays& inliers);
-  size_t BinOf(float value) const { return static_cast<size_t>((value - low_) * bins_per_unit_); }
-  float SpanOf(const Cluster& cluster, size_t num_inliers) const;
+  // Keeps the heaviest of clusters_.
+  void KeepHeaviest(size_t max_num, const CellArrays& inliers);
+  float SpanOf(const Cluster& cluster) const;
   // Drops the inliers outside clusters_.
   void KeepClusters(CellArrays* inliers);
   template <typename Condition>
@@ -55,9 +56,10 @@ class InlierFilters {
 
   std::vector<float> values_;  // one for each inlier
   std::vector<float> marks_;
-  CellSet used_bins_;
-  float bins_per_unit_ = 0;
-  float low_ = 0;
+  Range range_;                   // of values_
+  std::vector<int32_t> bins_;     // of values_
+  std::vector<uint8_t> is_used_;  // of each bin
+  std::vector<float> bin_weights_;
   std::vector<Cluster> clusters_;
   std::vector<Eigen::Vector2f> layers_;
 };

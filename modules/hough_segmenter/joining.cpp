@@ -48,33 +48,29 @@ float GapBetween(const TopPatch& a, const TopPatch& b) {
 
 }  // namespace
 
-std::vector<Face> WithJoinedFaces(const std::vector<Face>& faces, float max_extent,
-                                  size_t max_joined) {
-  std::vector<Face> all = faces;
-  for (size_t i = 0; i < faces.size(); ++i) {
-    for (size_t j = i + 1; j < faces.size() && all.size() < faces.size() + max_joined; ++j) {
-      if (const auto joined = Join(faces[i], faces[j], max_extent)) all.push_back(*joined);
+void AppendJoinedFaces(float max_extent, size_t max_joined, std::vector<Face>* faces) {
+  const size_t num = faces->size();
+  for (size_t i = 0; i < num; ++i) {
+    for (size_t j = i + 1; j < num && faces->size() < num + max_joined; ++j) {
+      if (const auto joined = Join((*faces)[i], (*faces)[j], max_extent)) faces->push_back(*joined);
     }
   }
-  return all;
 }
 
-std::vector<TopPatch> WithJoinedPatches(const std::vector<TopPatch>& tops, float max_extent,
-                                        size_t max_joined) {
-  std::vector<TopPatch> all = tops;
+void JoinPatches(const TopPatches& tops, float max_extent, size_t max_joined, TopPatches* joined) {
+  joined->Clear();
   for (size_t i = 0; i < tops.size(); ++i) {
-    for (size_t j = i + 1; j < tops.size() && all.size() < tops.size() + max_joined; ++j) {
+    for (size_t j = i + 1; j < tops.size() && joined->size() < max_joined; ++j) {
       if (std::abs(tops[i].height - tops[j].height) > kSameHeight ||
           GapBetween(tops[i], tops[j]) > max_extent) {
         continue;
       }
-      TopPatch joined = tops[i];
-      joined.points.insert(joined.points.end(), tops[j].points.begin(), tops[j].points.end());
-      joined.hull.insert(joined.hull.end(), tops[j].hull.begin(), tops[j].hull.end());
-      all.push_back(std::move(joined));
+      TopPatch& both = joined->Add();
+      both = tops[i];
+      both.points.Append(tops[j].points);
+      both.hull.insert(both.hull.end(), tops[j].hull.begin(), tops[j].hull.end());
     }
   }
-  return all;
 }
 
 }  // namespace declutter

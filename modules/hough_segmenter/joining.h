@@ -10,13 +10,11 @@ namespace declutter {
 // Occluders part what belongs together. Whether two parts do is for the depth image to say: these
 // only propose it.
 
-// All faces, and those that come of joining two on one line, at most max_joined.
-std::vector<Face> WithJoinedFaces(const std::vector<Face>& faces, float max_extent,
-                                  size_t max_joined);
+// Appends to faces those that come of joining two on one line, at most max_joined.
+void AppendJoinedFaces(float max_extent, size_t max_joined, std::vector<Face>* faces);
 
-// All patches, and those that come of joining two at the same height, of the same component or not,
-// that are not farther than max_extent apart, at most max_joined.
-std::vector<TopPatch> WithJoinedPatches(const std::vector<TopPatch>& tops, float max_extent,
-                                        size_t max_joined);
+// Sets joined to what comes of joining two patches at the same height, of the same component or
+// not, that are not farther than max_extent apart, at most max_joined.
+void JoinPatches(const TopPatches& tops, float max_extent, size_t max_joined, TopPatches* joined);
 
 }  // namespace declutter

@@ -178,9 +178,8 @@ HoughSegmenterConfig SectionConfig(const HoughSegmenterConfig& config) {
 
 std::vector<Hypothesis> FindLyingCylinders(const HoughSegmenterConfig& config,
                                            const std::vector<TablePoint>& points,
-                                           const PointGrid& slants,
-                                           const std::vector<TopPatch>& tops, SideCells* side_cells,
-                                           SideSearch* search) {
+                                           const PointGrid& slants, const TopPatches& tops,
+                                           SideCells* side_cells, SideSearch* search) {
   const auto max_radius = static_cast<float>(config.max_radius_m());
   std::vector<Hypothesis> hypotheses;
   for (const TopPatch& patch : tops) {

@@ -19,8 +19,7 @@ HoughSegmenterConfig SectionConfig(const HoughSegmenterConfig& config);
 // with SectionConfig(config).
 std::vector<Hypothesis> FindLyingCylinders(const HoughSegmenterConfig& config,
                                            const std::vector<TablePoint>& points,
-                                           const PointGrid& slants,
-                                           const std::vector<TopPatch>& tops, SideCells* side_cells,
-                                           SideSearch* search);
+                                           const PointGrid& slants, const TopPatches& tops,
+                                           SideCells* side_cells, SideSearch* search);
 
 }  // namespace declutter

@@ -12,15 +12,16 @@ constexpr float kMargin = 0.006f;        // [m] around the extent found on cells
 constexpr float kHeightMargin = 0.014f;  // [m] half a cell more
 constexpr float kMinCos = 0.7f;          // normals bend near outlines
 
-void Measure(const PointGrid& sides, Face* face, std::vector<float>* s_values,
-             std::vector<float>* z_values) {
+}  // namespace
+
+void SolidCompletion::Measure(const PointGrid& sides, Face* face) {
   LineModel& line = face->model;
   const float reach = std::max(kMaxDistance, 2.5f * sides.max_sigma());
   Eigen::AlignedBox2f box(line.PointAt(line.s_min - kMargin));
   box.extend(line.PointAt(line.s_max + kMargin));
   const Eigen::Vector2f margin = Eigen::Vector2f::Constant(reach);
-  s_values->clear();
-  z_values->clear();
+  s_values_.clear();
+  z_values_.clear();
   sides.ForEachIn(
       {box.min() - margin, box.max() + margin},
       [&](const Eigen::Vector2f& middle) {
@@ -35,23 +36,23 @@ void Measure(const PointGrid& sides, Face* face, std::vector<float>* s_values,
             line.n.dot(point.n_T.head<2>()) < kMinCos * point.n_T.head<2>().norm()) {
           return;
         }
-        s_values->push_back(s);
-        z_values->push_back(point.p_T.z());
+        s_values_.push_back(s);
+        z_values_.push_back(point.p_T.z());
       });
-  if (s_values->size() < 20) return;
-  const Range s_range = Quantiles(s_values, 0.005, 0.995);
-  const Range z_range = Quantiles(z_values, 0.01, 0.99);
+  if (s_values_.size() < 20) return;
+  const Range s_range = Quantiles(&s_values_, 0.005, 0.995);
+  const Range z_range = Quantiles(&z_values_, 0.01, 0.99);
   line.s_min = s_range.low;
   line.s_max = s_range.high;
   line.z_min = z_range.low;
   line.z_max = z_range.high;
 }
 
-void Measure(const PointGrid& sides, Arc* arc, std::vector<float>* z_values) {
+void SolidCompletion::Measure(const PointGrid& sides, Arc* arc) {
   CircleModel& circle = arc->model;
   const float reach = std::max(kMaxDistance, 2.5f * sides.max_sigma());
   const Eigen::Vector2f half = Eigen::Vector2f::Constant(circle.r + reach);
-  z_values->clear();
+  z_values_.clear();
   sides.ForEachIn(
       {circle.c - half, circle.c + half},
       [&](const Eigen::Vector2f& middle) {
@@ -66,20 +67,17 @@ void Measure(const PointGrid& sides, Arc* arc, std::vector<float>* z_values) {
             q.dot(point.n_T.head<2>()) < kMinCos * q.norm() * point.n_T.head<2>().norm()) {
           return;
         }
-        z_values->push_back(point.p_T.z());
+        z_values_.push_back(point.p_T.z());
       });
-  if (z_values->size() < 20) return;
-  const Range z_range = Quantiles(z_values, 0.01, 0.99);
+  if (z_values_.size() < 20) return;
+  const Range z_range = Quantiles(&z_values_, 0.01, 0.99);
   circle.z_min = z_range.low;
   circle.z_max = z_range.high;
 }
 
-}  // namespace
-
-void MeasureExtents(const PointGrid& sides, Surfaces* surfaces) {
-  std::vector<float> s_values, z_values;
-  for (Face& face : surfaces->faces) Measure(sides, &face, &s_values, &z_values);
-  for (Arc& arc : surfaces->arcs) Measure(sides, &arc, &z_values);
+void SolidCompletion::MeasureExtents(const PointGrid& sides, SideDetections* detections) {
+  for (Face& face : detections->faces) Measure(sides, &face);
+  for (Arc& arc : detections->arcs) Measure(sides, &arc);
 }
 
 }  // namespace declutter

@@ -127,7 +127,7 @@ void SideFitter::FindCandidates(std::vector<Candidate<Model>>* candidates) {
   candidates->clear();
   for (const auto& [a, b] : pairs_) {
     const auto model = ModelThrough(a, b, static_cast<const Model*>(nullptr));
-    if (model) candidates->push_back({*model});
+    if (model) candidates->push_back({*model, candidates->size()});
   }
 }
 
@@ -146,7 +146,9 @@ bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* 
   const size_t num_scored = part_with(kMaxScoredCells);
   const size_t num_first = part_with(kFirstScoredCells);
   const size_t begin = random_(open_.size() - num_scored + 1);
-  const auto is_better = [](const auto& x, const auto& y) { return x.score > y.score; };
+  const auto is_better = [](const auto& x, const auto& y) {
+    return x.score != y.score ? x.score > y.score : x.sample < y.sample;
+  };
   const CellView left = OpenCells(left_weights_.data());
   const CellView first = left.Part(begin, num_first);
   num_tests_ += static_cast<int64_t>(candidates->size() * num_first);
@@ -154,16 +156,18 @@ bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* 
     candidate.score = Support(first, ShapeOf(candidate.model), min_cos_);
   }
   if (num_scored > num_first) {
-    std::stable_sort(candidates->begin(), candidates->end(), is_better);
-    candidates->resize(
-        std::min(candidates->size(), std::max(kMinFinalists, candidates->size() / 4)));
+    const size_t num_finalists =
+        std::min(candidates->size(), std::max(kMinFinalists, candidates->size() / 4));
+    std::partial_sort(candidates->begin(),
+                      candidates->begin() + static_cast<std::ptrdiff_t>(num_finalists),
+                      candidates->end(), is_better);
+    candidates->resize(num_finalists);
     const CellView rest = left.Part(begin + num_first, num_scored - num_first);
     num_tests_ += static_cast<int64_t>(candidates->size() * rest.num);
     for (auto& candidate : *candidates) {
       candidate.score += Support(rest, ShapeOf(candidate.model), min_cos_);
     }
   }
-  // The first of the best ones.
   const auto best = std::min_element(candidates->begin(), candidates->end(), is_better);
   return best->score > 0 && RefitTo(best->model, left_weights_.data(), fit);
 }

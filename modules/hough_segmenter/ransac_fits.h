@@ -55,7 +55,8 @@ class SideFitter {
   template <typename Model>
   struct Candidate {
     Model model;
-    float score = 0;  // [px] support
+    size_t sample = 0;  // its number
+    float score = 0;    // [px] support
   };
 
   // Draws num_samples pairs of cells that are left, near each other, for both shapes.

@@ -54,16 +54,22 @@ Rectangle FromFace(const Face& face) {
   return r;
 }
 
-Rectangle Around(const TopPatch& patch, const Eigen::Vector2f& axis) {
+void RectangleFinder::FindPositions(const PlanarPoints& points, const Eigen::Vector2f& axis) {
+  const auto find = [&points](float tx, float ty, std::vector<float>* positions) {
+    positions->resize(points.size() + kCellBlock);
+    PositionsAlong(points.x(), points.y(), points.size(), tx, ty, positions->data());
+    positions->resize(points.size());
+  };
+  find(axis.x(), axis.y(), &a_);
+  find(-axis.y(), axis.x(), &b_);
+}
+
+Rectangle RectangleFinder::Around(const TopPatch& patch, const Eigen::Vector2f& axis) {
   Rectangle r;
   r.axis = axis;
-  std::vector<float> a(patch.points.size()), b(patch.points.size());
-  for (size_t i = 0; i < a.size(); ++i) {
-    a[i] = axis.dot(patch.points[i]);
-    b[i] = r.perpendicular().dot(patch.points[i]);
-  }
-  const Range a_range = Quantiles(&a, 0.005, 0.995);
-  const Range b_range = Quantiles(&b, 0.005, 0.995);
+  FindPositions(patch.points, axis);
+  const Range a_range = Quantiles(&a_, 0.005, 0.995);
+  const Range b_range = Quantiles(&b_, 0.005, 0.995);
   r.a_min = a_range.low;
   r.a_max = a_range.high;
   r.b_min = b_range.low;
@@ -89,7 +95,8 @@ bool IsAttached(const Face& face, const TopPatch& patch) {
     return false;
   }
   int num_near = 0;
-  for (const Eigen::Vector2f& p : patch.points) {
+  for (size_t i = 0; i < patch.points.size(); ++i) {
+    const Eigen::Vector2f p = patch.points[i];
     const float depth = line.rho - line.n.dot(p);
     const float s = line.tangent().dot(p);
     num_near +=
@@ -121,35 +128,37 @@ void SnapToFaces(const std::vector<const Face*>& faces, Rectangle* r) {
   }
 }
 
-std::optional<Rectangle> GrowOver(const Face& face, const TopPatch& patch, float max_extent) {
+std::optional<Rectangle> RectangleFinder::GrowOver(const Face& face, const TopPatch& patch,
+                                                   float max_extent) {
   Rectangle r = FromFace(face);
-  std::vector<int> profile(static_cast<size_t>(max_extent / kBin), 0);
-  std::vector<float> depths;
-  for (const Eigen::Vector2f& p : patch.points) {
-    const float a = r.axis.dot(p);
-    const float depth = r.perpendicular().dot(p) - r.b_min;
-    if (a < r.a_min || a > r.a_max || depth < 0) continue;
+  FindPositions(patch.points, r.axis);
+  profile_.assign(static_cast<size_t>(max_extent / kBin), 0);
+  size_t num_depths = 0;
+  for (size_t i = 0; i < b_.size(); ++i) {
+    const float depth = b_[i] - r.b_min;
+    if (a_[i] < r.a_min || a_[i] > r.a_max || depth < 0) continue;
     const auto bin = static_cast<size_t>(depth / kBin);
-    if (bin >= profile.size()) continue;
-    ++profile[bin];
-    depths.push_back(depth);
+    if (bin >= profile_.size()) continue;
+    ++profile_[bin];
+    b_[num_depths++] = depth;
   }
+  b_.resize(num_depths);
   int front = 0;
-  for (size_t bin = 0; bin < std::min<size_t>(profile.size(), 8); ++bin) {
-    front = std::max(front, profile[bin]);
+  for (size_t bin = 0; bin < std::min<size_t>(profile_.size(), 8); ++bin) {
+    front = std::max(front, profile_[bin]);
   }
   size_t end = 0;
-  for (size_t bin = 0; bin < profile.size(); ++bin) {
-    if (3 * profile[bin] >= front && profile[bin] >= 2) end = bin + 1;
+  for (size_t bin = 0; bin < profile_.size(); ++bin) {
+    if (3 * profile_[bin] >= front && profile_[bin] >= 2) end = bin + 1;
     if (bin > end + 3) break;
   }
   const float limit = static_cast<float>(end) * kBin;
-  depths.erase(std::remove_if(depths.begin(), depths.end(), [&](float d) { return d > limit; }),
-               depths.end());
-  if (depths.size() < 30) return std::nullopt;
-  r.b_max = r.b_min + Quantile(&depths, 0.99);
+  b_.erase(std::remove_if(b_.begin(), b_.end(), [&](float depth) { return depth > limit; }),
+           b_.end());
+  if (b_.size() < 30) return std::nullopt;
+  r.b_max = r.b_min + Quantile(&b_, 0.99);
   r.z_max = patch.height;
-  r.num_points += static_cast<int>(depths.size());
+  r.num_points += static_cast<int>(b_.size());
   return r;
 }
 

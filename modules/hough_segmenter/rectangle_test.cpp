@@ -23,7 +23,7 @@ TopPatch PatchAt(float height) {
   patch.hull = {{0, 0}, {0.095f, 0}, {0.095f, 0.095f}, {0, 0.095f}};
   for (int i = 0; i < 20; ++i) {
     for (int j = 0; j < 20; ++j) {
-      patch.points.emplace_back(0.005f * static_cast<float>(i), 0.005f * static_cast<float>(j));
+      patch.points.Add({0.005f * static_cast<float>(i), 0.005f * static_cast<float>(j)});
     }
   }
   return patch;

@@ -76,9 +76,10 @@ class Footprint {
 
 }  // namespace
 
-void AddSidesBelowTops(const PointGrid& sides, std::vector<Hypothesis>* hypotheses) {
+void SolidCompletion::AddSidesBelowTops(const PointGrid& sides,
+                                        std::vector<Hypothesis>* hypotheses) {
   const size_t num = hypotheses->size();
-  std::vector<float> heights;
+  std::vector<float>& heights = z_values_;
   for (size_t i = 0; i < num; ++i) {
     if (!IsTopOnly((*hypotheses)[i])) continue;
     Hypothesis taller = (*hypotheses)[i];
