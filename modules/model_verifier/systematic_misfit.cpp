@@ -13,64 +13,81 @@ constexpr size_t kNumStrips = 6;
 constexpr int kMinPoints = 3;  // of a strip that counts
 constexpr int kMinStrips = 4;
 
-struct SidePoint {
-  double along;     // [m]
-  double distance;  // [m] from the side
+// Distances of points from a side by their places along it. They are kept in bins as where the
+// points begin and end, and so the strips between, is known last.
+class SideProfile {
+ public:
+  // Places are within reach_m of 0.
+  explicit SideProfile(double reach_m)
+      : reach_m_(reach_m), bins_per_m_(kNumBins / std::max(1e-6, 2 * reach_m)) {}
+
+  void Add(double place, double distance) {
+    const auto bin = std::min(kNumBins - 1, static_cast<size_t>((place + reach_m_) * bins_per_m_));
+    sums_[bin] += distance;
+    ++nums_[bin];
+    ++num_points_;
+  }
+
+  int num_points() const { return num_points_; }
+
+  // [m] rms of the mean distances of strips; 0 where they are few.
+  double Misfit() const {
+    if (num_points_ == 0) return 0;
+    size_t first = 0, end = kNumBins;
+    while (nums_[first] == 0) ++first;
+    while (nums_[end - 1] == 0) --end;
+    double sum = 0;
+    double square_sum = 0;
+    int num = 0;
+    for (size_t i = 0; i < kNumStrips; ++i) {
+      const auto at = [&](size_t strip) { return first + strip * (end - first) / kNumStrips; };
+      double strip_sum = 0;
+      int strip_num = 0;
+      for (size_t bin = at(i); bin < at(i + 1); ++bin) {
+        strip_sum += sums_[bin];
+        strip_num += nums_[bin];
+      }
+      if (strip_num < kMinPoints) continue;
+      const double mean = strip_sum / strip_num;
+      sum += mean;
+      square_sum += mean * mean;
+      ++num;
+    }
+    if (num < kMinStrips) return 0;
+    return std::sqrt(std::max(0.0, square_sum / num - (sum / num) * (sum / num)));
+  }
+
+ private:
+  static constexpr size_t kNumBins = 240;
+
+  double reach_m_, bins_per_m_;
+  std::array<double, kNumBins> sums_ = {};
+  std::array<int, kNumBins> nums_ = {};
+  int num_points_ = 0;
 };
 
-double MisfitOf(const std::vector<SidePoint>& points) {
-  if (points.empty()) return 0;
-  const auto [first, last] =
-      std::minmax_element(points.begin(), points.end(),
-                          [](const SidePoint& a, const SidePoint& b) { return a.along < b.along; });
-  const double low = first->along;
-  const double strips_per_m = kNumStrips / std::max(1e-6, last->along - low);
-  std::array<double, kNumStrips> sums = {};
-  std::array<int, kNumStrips> nums = {};
-  for (const SidePoint& point : points) {
-    const auto strip =
-        std::min(kNumStrips - 1, static_cast<size_t>((point.along - low) * strips_per_m));
-    sums[strip] += point.distance;
-    ++nums[strip];
-  }
-  double sum = 0;
-  double square_sum = 0;
-  int num = 0;
-  for (size_t i = 0; i < kNumStrips; ++i) {
-    if (nums[i] < kMinPoints) continue;
-    const double mean = sums[i] / nums[i];
-    sum += mean;
-    square_sum += mean * mean;
-    ++num;
-  }
-  if (num < kMinStrips) return 0;
-  return std::sqrt(std::max(0.0, square_sum / num - (sum / num) * (sum / num)));
-}
-
-std::vector<SidePoint> OnCylinder(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
-                                  const Eigen::Vector2d& sight_O) {
-  std::vector<SidePoint> side;
+SideProfile OfCylinder(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
+                       const Eigen::Vector2d& sight_O) {
+  SideProfile side(kOutline * solid.radius());
   for (const Eigen::Vector3d& p : points_O) {
     const Eigen::Vector2d q = p.head<2>();
     if (std::abs(p.z()) > 0.5 * solid.height() - kEdgeMargin) continue;
     const double angle = std::atan2(sight_O.x() * q.y() - sight_O.y() * q.x(), sight_O.dot(q));
-    if (std::abs(angle) < kOutline) {
-      side.push_back({angle * solid.radius(), q.norm() - solid.radius()});
-    }
+    if (std::abs(angle) < kOutline) side.Add(angle * solid.radius(), q.norm() - solid.radius());
   }
   return side;
 }
 
 // Of the side of a box that is turned toward the camera across an axis.
-std::vector<SidePoint> OnBox(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
-                             int axis, double sign) {
+SideProfile OfBox(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O, int axis,
+                  double sign) {
   const Eigen::Vector3d half = 0.5 * solid.size;
-  std::vector<SidePoint> side;
+  SideProfile side(half[1 - axis]);
   for (const Eigen::Vector3d& p : points_O) {
     const double distance = sign * p[axis] - half[axis];
     if (std::abs(distance) < kEdgeMargin && std::abs(p.z()) < half.z() - kEdgeMargin &&
         std::abs(p[1 - axis]) < half[1 - axis] - kEdgeMargin) {
-      side.push_back({p[1 - axis], distance});
+      side.Add(p[1 - axis], distance);
     }
   }
   return side;
@@ -81,20 +98,20 @@ std::vector<SidePoint> OnBox(const Solid& solid, const std::vector<Eigen::Vector
 double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O) {
   const Eigen::Vector3d camera_O = solid.X_CO.inverse().translation();
   if (solid.shape == Shape::kCylinder) {
-    return MisfitOf(OnCylinder(solid, points_O, camera_O.head<2>()));
+    return OfCylinder(solid, points_O, camera_O.head<2>()).Misfit();
   }
-  std::vector<SidePoint> side = OnBox(solid, points_O, 0, std::copysign(1.0, camera_O.x()));
-  std::vector<SidePoint> other = OnBox(solid, points_O, 1, std::copysign(1.0, camera_O.y()));
-  return MisfitOf(side.size() > other.size() ? side : other);
+  const SideProfile side = OfBox(solid, points_O, 0, std::copysign(1.0, camera_O.x()));
+  const SideProfile other = OfBox(solid, points_O, 1, std::copysign(1.0, camera_O.y()));
+  return (side.num_points() > other.num_points() ? side : other).Misfit();
 }
 
 double LayerMisfit(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
-  std::vector<SidePoint> side;
+  SideProfile side(0.5 * cylinder.height());
   for (const Eigen::Vector3d& p : points_O) {
     if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) continue;
-    side.push_back({p.z(), p.head<2>().norm() - cylinder.radius()});
+    side.Add(p.z(), p.head<2>().norm() - cylinder.radius());
   }
-  return MisfitOf(side);
+  return side.Misfit();
 }
 
 std::optional<double> StepOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
@@ -142,27 +159,26 @@ double MisfitShare(double misfit_sigmas) {
 
 Taper TaperOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O, double sigma) {
   constexpr double kMinHeight = 0.020;  // [m] between the points, to tell
-  constexpr size_t kMinNum = 30;
+  constexpr double kMinNum = 30;
   constexpr double kPixelsPerSample = 36;  // over which the noise of a sensor is correlated
-  std::vector<Eigen::Vector2d> points;     // height, distance from the side
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  // Of heights and distances from the side.
+  double num = 0, sum_z = 0, sum_d = 0, sum_zz = 0, sum_zd = 0;
   double low = 1;
   double high = -1;
   for (const Eigen::Vector3d& p : points_O) {
     if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) continue;
-    points.emplace_back(p.z(), p.head<2>().norm() - cylinder.radius());
-    mean += points.back();
+    const double d = p.head<2>().norm() - cylinder.radius();
+    ++num;
+    sum_z += p.z();
+    sum_d += d;
+    sum_zz += p.z() * p.z();
+    sum_zd += p.z() * d;
     low = std::min(low, p.z());
     high = std::max(high, p.z());
   }
-  if (points.size() < kMinNum || high - low < kMinHeight) return {};
-  mean /= static_cast<double>(points.size());
-  double zz = 0;
-  double zd = 0;
-  for (const Eigen::Vector2d& point : points) {
-    zz += (point.x() - mean.x()) * (point.x() - mean.x());
-    zd += (point.x() - mean.x()) * (point.y() - mean.y());
-  }
+  if (num < kMinNum || high - low < kMinHeight) return {};
+  const double zz = sum_zz - sum_z * sum_z / num;
+  const double zd = sum_zd - sum_z * sum_d / num;
   return {zd / zz, sigma * std::sqrt(kPixelsPerSample / zz)};
 }
 
