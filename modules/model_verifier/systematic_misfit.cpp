@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace declutter {
 namespace {
@@ -13,84 +14,79 @@ constexpr size_t kNumStrips = 6;
 constexpr int kMinPoints = 3;  // of a strip that counts
 constexpr int kMinStrips = 4;
 
-// Distances of points from a side by their places along it. They are kept in bins as where the
-// points begin and end, and so the strips between, is known last.
-class SideProfile {
- public:
-  // Places are within reach_m of 0.
-  explicit SideProfile(double reach_m)
-      : reach_m_(reach_m), bins_per_m_(kNumBins / std::max(1e-6, 2 * reach_m)) {}
-
-  void Add(double place, double distance) {
-    const auto bin = std::min(kNumBins - 1, static_cast<size_t>((place + reach_m_) * bins_per_m_));
-    sums_[bin] += distance;
-    ++nums_[bin];
-    ++num_points_;
-  }
-
-  int num_points() const { return num_points_; }
-
-  // [m] rms of the mean distances of strips; 0 where they are few.
-  double Misfit() const {
-    if (num_points_ == 0) return 0;
-    size_t first = 0, end = kNumBins;
-    while (nums_[first] == 0) ++first;
-    while (nums_[end - 1] == 0) --end;
-    double sum = 0;
-    double square_sum = 0;
-    int num = 0;
-    for (size_t i = 0; i < kNumStrips; ++i) {
-      const auto at = [&](size_t strip) { return first + strip * (end - first) / kNumStrips; };
-      double strip_sum = 0;
-      int strip_num = 0;
-      for (size_t bin = at(i); bin < at(i + 1); ++bin) {
-        strip_sum += sums_[bin];
-        strip_num += nums_[bin];
-      }
-      if (strip_num < kMinPoints) continue;
-      const double mean = strip_sum / strip_num;
-      sum += mean;
-      square_sum += mean * mean;
-      ++num;
-    }
-    if (num < kMinStrips) return 0;
-    return std::sqrt(std::max(0.0, square_sum / num - (sum / num) * (sum / num)));
-  }
-
- private:
-  static constexpr size_t kNumBins = 240;
-
-  double reach_m_, bins_per_m_;
-  std::array<double, kNumBins> sums_ = {};
-  std::array<int, kNumBins> nums_ = {};
-  int num_points_ = 0;
+struct SidePoint {
+  double along;     // [m]
+  double distance;  // [m] from the side
 };
 
-SideProfile OfCylinder(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
-                       const Eigen::Vector2d& sight_O) {
-  SideProfile side(kOutline * solid.radius());
+struct Misfit {
+  double rms = 0;  // [m] of the mean distances of strips; 0 where they are few
+  int num_points = 0;
+};
+
+// Of those points of which `side_point` makes a SidePoint. It is asked twice: where they begin and
+// end, and so the strips between, has to be known first.
+template <class F>
+Misfit MisfitOf(const std::vector<Eigen::Vector3d>& points_O, const F& side_point) {
+  double low = std::numeric_limits<double>::max();
+  double high = -low;
+  Misfit misfit;
   for (const Eigen::Vector3d& p : points_O) {
-    const Eigen::Vector2d q = p.head<2>();
-    if (std::abs(p.z()) > 0.5 * solid.height() - kEdgeMargin) continue;
-    const double angle = std::atan2(sight_O.x() * q.y() - sight_O.y() * q.x(), sight_O.dot(q));
-    if (std::abs(angle) < kOutline) side.Add(angle * solid.radius(), q.norm() - solid.radius());
+    const std::optional<SidePoint> point = side_point(p);
+    if (!point) continue;
+    low = std::min(low, point->along);
+    high = std::max(high, point->along);
+    ++misfit.num_points;
   }
-  return side;
+  const double strips_per_m = kNumStrips / std::max(1e-6, high - low);
+  std::array<double, kNumStrips> sums = {};
+  std::array<int, kNumStrips> nums = {};
+  for (const Eigen::Vector3d& p : points_O) {
+    const std::optional<SidePoint> point = side_point(p);
+    if (!point) continue;
+    const auto strip =
+        std::min(kNumStrips - 1, static_cast<size_t>((point->along - low) * strips_per_m));
+    sums[strip] += point->distance;
+    ++nums[strip];
+  }
+  double sum = 0;
+  double square_sum = 0;
+  int num = 0;
+  for (size_t i = 0; i < kNumStrips; ++i) {
+    if (nums[i] < kMinPoints) continue;
+    const double mean = sums[i] / nums[i];
+    sum += mean;
+    square_sum += mean * mean;
+    ++num;
+  }
+  if (num < kMinStrips) return misfit;
+  misfit.rms = std::sqrt(std::max(0.0, square_sum / num - (sum / num) * (sum / num)));
+  return misfit;
+}
+
+Misfit OfCylinder(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
+                  const Eigen::Vector2d& sight_O) {
+  return MisfitOf(points_O, [&](const Eigen::Vector3d& p) -> std::optional<SidePoint> {
+    const Eigen::Vector2d q = p.head<2>();
+    if (std::abs(p.z()) > 0.5 * solid.height() - kEdgeMargin) return std::nullopt;
+    const double angle = std::atan2(sight_O.x() * q.y() - sight_O.y() * q.x(), sight_O.dot(q));
+    if (std::abs(angle) >= kOutline) return std::nullopt;
+    return SidePoint{angle * solid.radius(), q.norm() - solid.radius()};
+  });
 }
 
 // Of the side of a box that is turned toward the camera across an axis.
-SideProfile OfBox(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O, int axis,
-                  double sign) {
+Misfit OfBox(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O, int axis,
+             double sign) {
   const Eigen::Vector3d half = 0.5 * solid.size;
-  SideProfile side(half[1 - axis]);
-  for (const Eigen::Vector3d& p : points_O) {
+  return MisfitOf(points_O, [&](const Eigen::Vector3d& p) -> std::optional<SidePoint> {
     const double distance = sign * p[axis] - half[axis];
-    if (std::abs(distance) < kEdgeMargin && std::abs(p.z()) < half.z() - kEdgeMargin &&
-        std::abs(p[1 - axis]) < half[1 - axis] - kEdgeMargin) {
-      side.Add(p[1 - axis], distance);
+    if (std::abs(distance) >= kEdgeMargin || std::abs(p.z()) >= half.z() - kEdgeMargin ||
+        std::abs(p[1 - axis]) >= half[1 - axis] - kEdgeMargin) {
+      return std::nullopt;
     }
-  }
-  return side;
+    return SidePoint{p[1 - axis], distance};
+  });
 }
 
 }  // namespace
@@ -98,20 +94,22 @@ SideProfile OfBox(const Solid& solid, const std::vector<Eigen::Vector3d>& points
 double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O) {
   const Eigen::Vector3d camera_O = solid.X_CO.inverse().translation();
   if (solid.shape == Shape::kCylinder) {
-    return OfCylinder(solid, points_O, camera_O.head<2>()).Misfit();
+    return OfCylinder(solid, points_O, camera_O.head<2>()).rms;
   }
-  const SideProfile side = OfBox(solid, points_O, 0, std::copysign(1.0, camera_O.x()));
-  const SideProfile other = OfBox(solid, points_O, 1, std::copysign(1.0, camera_O.y()));
-  return (side.num_points() > other.num_points() ? side : other).Misfit();
+  const Misfit side = OfBox(solid, points_O, 0, std::copysign(1.0, camera_O.x()));
+  const Misfit other = OfBox(solid, points_O, 1, std::copysign(1.0, camera_O.y()));
+  return (side.num_points > other.num_points ? side : other).rms;
 }
 
 double LayerMisfit(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
-  SideProfile side(0.5 * cylinder.height());
-  for (const Eigen::Vector3d& p : points_O) {
-    if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) continue;
-    side.Add(p.z(), p.head<2>().norm() - cylinder.radius());
-  }
-  return side.Misfit();
+  return MisfitOf(points_O,
+                  [&](const Eigen::Vector3d& p) -> std::optional<SidePoint> {
+                    if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) {
+                      return std::nullopt;
+                    }
+                    return SidePoint{p.z(), p.head<2>().norm() - cylinder.radius()};
+                  })
+      .rms;
 }
 
 std::optional<double> StepOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
