@@ -41,6 +41,8 @@ class SphereWindow {
     inverse_stride_ = 1 / static_cast<float>(stride_);
   }
 
+  // Half of its width at z = 1.
+  DECLUTTER_LANES float slope() const { return std::sqrt(squared_slope_); }
   DECLUTTER_LANES int stride() const { return stride_; }
   DECLUTTER_LANES int num_rows() const { return num_rows_; }
   DECLUTTER_LANES int Columns(int row) const {
@@ -76,6 +78,47 @@ class SphereWindow {
   float inverse_stride_ = 1;
   int num_rows_ = 0;
   int stride_ = 1;
+};
+
+// The part of a window in which neighbours may be nearer than a distance.
+class SphereCore {
+ public:
+  DECLUTTER_LANES SphereCore(const PointImage& points, size_t begin, float distance_m,
+                             const SphereWindow& window)
+      : fx_(points.fx), inverse_fy_(1 / points.fy) {
+    const float slope = Slope(points, begin, distance_m, window);
+    squared_slope_ = slope * slope;
+  }
+
+  // -1: none in this row.
+  DECLUTTER_LANES int Columns(int row) const {
+    const float y = static_cast<float>(row) * inverse_fy_;
+    const float square = squared_slope_ - y * y;
+    return square < 0 ? -1 : static_cast<int>(fx_ * std::sqrt(square));
+  }
+
+ private:
+  static constexpr float kRounding = 1.001F;
+
+  // With rays a = P / z and b = a + e of two pixels, no point on b is nearer to P than
+  // z |a x b| / |b|, which is at least z |e| / |b|. This is the largest |e| with which one may be
+  // nearer than the distance.
+  DECLUTTER_LANES static float Slope(const PointImage& points, size_t begin, float distance_m,
+                                     const SphereWindow& window) {
+    float slope = 0;
+    for (size_t lane = 0; lane < PointImage::kLanes; ++lane) {
+      if (!points.HasPoint(begin + lane)) continue;
+      const float z = points.z[begin + lane];
+      const float x = points.x[begin + lane] / z, y = points.y[begin + lane] / z;
+      const float reach = std::sqrt(x * x + y * y) + window.slope();
+      slope = std::max(slope, kRounding * distance_m / z * std::sqrt(1 + reach * reach));
+    }
+    return slope;
+  }
+
+  float squared_slope_ = 0;
+  float fx_ = 0;
+  float inverse_fy_ = 0;
 };
 
 }  // namespace declutter
