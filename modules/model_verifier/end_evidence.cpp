@@ -82,7 +82,7 @@ Solid Longer(Solid solid, int axis, int sign, double growth) {
 
 SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
                  const RayEvidence& evidence, const std::vector<Eigen::Vector3d>& points_O,
-                 const Observation& observation) {
+                 const Observation& observation, RayEvidence* buffer) {
   SolidEnds ends = {};
   if (solid.shape == Shape::kCylinder) {
     ends[2] = {given[2] == Evidence::kAssumed ? EndEvidence::kAssumed : EndEvidence::kSupport,
@@ -105,9 +105,10 @@ SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
         end = EndEvidence::kEdge;
       } else {
         const Solid longer = Longer(solid, axis, sign, kFreeSpaceReach);
-        const int num_violating = CastRays(longer, observation).num_violating;
-        end = num_violating >= evidence.num_violating + kMinViolating ? EndEvidence::kFreeSpace
-                                                                      : EndEvidence::kAssumed;
+        CastRays(longer, observation, buffer);
+        end = buffer->num_violating >= evidence.num_violating + kMinViolating
+                  ? EndEvidence::kFreeSpace
+                  : EndEvidence::kAssumed;
       }
     }
   }

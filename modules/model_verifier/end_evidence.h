@@ -32,7 +32,7 @@ inline constexpr double kFreeSpaceReach = 0.020;
 // its face.
 SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
                  const RayEvidence& evidence, const std::vector<Eigen::Vector3d>& points_O,
-                 const Observation& observation);
+                 const Observation& observation, RayEvidence* buffer);
 
 // What an extent rests on: the weaker of its ends.
 std::array<Evidence, 3> ExtentEvidence(const SolidEnds& ends);

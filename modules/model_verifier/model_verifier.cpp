@@ -100,7 +100,7 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   observed_.Set(frame.image, list.planes[0]);
   // Models are selected by every second pixel; what is selected is measured with all.
   Select(hypotheses.hypotheses, observed_.every_second_pixel(), &list.objects);
-  SettleOnSupports(observed_.every_second_pixel(), &list.objects);
+  SettleOnSupports(observed_.every_second_pixel(), &list.objects, &buffers_.evidence);
   Measure(&list);
   DropUncertain(config_.min_confidence(), &list);
   return list;
@@ -149,7 +149,7 @@ void ModelVerifier::Measure(ObjectList* list) {
       object.confidence *= static_cast<float>(ShareOfSide(object.solid, points_O));
     }
     const SolidEnds ends = EndsOf(object.solid, object.evidence, evidence_[i], points_O,
-                                  observed_.every_second_pixel());
+                                  observed_.every_second_pixel(), &buffers_.evidence);
     object.evidence = ExtentEvidence(ends);
     object.covariance = CovarianceOf(object.solid, ends, evidence_[i], points_O, list->camera);
   }

@@ -126,7 +126,8 @@ std::array<Evidence, 3> EvidenceOf(const RenderedScene& scene, const Solid& soli
   const RayEvidence evidence = CastRays(solid, observation);
   std::vector<Eigen::Vector3d> points_O;
   FindExplainedPoints(solid, evidence, observation, &points_O);
-  return ExtentEvidence(EndsOf(solid, {}, evidence, points_O, observation));
+  RayEvidence buffer;
+  return ExtentEvidence(EndsOf(solid, {}, evidence, points_O, observation, &buffer));
 }
 
 TEST(ExtentEvidence, IsObservedWithFreeSpaceAroundAndNotBehindAnOccluder) {
