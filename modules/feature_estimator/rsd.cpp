@@ -140,7 +140,7 @@ DECLUTTER_LANES void CollectAnglesInBins(const PointImage& points, const NormalI
   LoadLanes(&normals.z[begin], block.normal_z);
   const SphereWindow window(points, begin, {rsd.radius_m});
   const SphereCore core(points, begin, std::sqrt(squared_edge[kFirstOfFar - 1]), window);
-  for (int row = -window.num_rows(); row <= window.num_rows(); ++row) {
+  for (int row = -window.num_steps(); row <= window.num_steps(); ++row) {
     const int columns = window.Columns(row);
     const int near_columns = std::min(core.Columns(row), columns);
     const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + row * points.stride;
