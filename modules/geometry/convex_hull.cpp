@@ -1,6 +1,7 @@
 #include "modules/geometry/convex_hull.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace declutter {
 namespace {
@@ -23,20 +24,25 @@ void AppendLeftTurn(const Vector2d& point, size_t first_size, std::vector<Vector
 }  // namespace
 
 // Monotone chain (A. M. Andrew, 1979).
-std::vector<Vector2d> ConvexHull(std::vector<Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
+void ConvexHull(std::vector<Vector2d>* points, std::vector<Vector2d>* hull) {
+  std::sort(points->begin(), points->end(), [](const Vector2d& a, const Vector2d& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
   });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return {};
-  std::vector<Vector2d> hull;
-  for (const Vector2d& point : points) AppendLeftTurn(point, 1, &hull);
-  const size_t lower_size = hull.size();
-  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) {
-    AppendLeftTurn(*point, lower_size, &hull);
+  points->erase(std::unique(points->begin(), points->end()), points->end());
+  hull->clear();
+  if (points->size() < 3) return;
+  for (const Vector2d& point : *points) AppendLeftTurn(point, 1, hull);
+  const size_t lower_size = hull->size();
+  for (auto point = points->rbegin() + 1; point != points->rend(); ++point) {
+    AppendLeftTurn(*point, lower_size, hull);
   }
-  hull.pop_back();
-  if (hull.size() < 3) hull.clear();
+  hull->pop_back();
+  if (hull->size() < 3) hull->clear();
+}
+
+std::vector<Vector2d> ConvexHull(std::vector<Vector2d> points) {
+  std::vector<Vector2d> hull;
+  ConvexHull(&points, &hull);
   return hull;
 }
 
@@ -59,7 +65,10 @@ std::vector<Vector2d> SimplifyHull(std::vector<Vector2d> hull, double tolerance)
   return hull;
 }
 
-ConvexRegion::ConvexRegion(const std::vector<Vector2d>& hull, double margin_m) {
+ConvexRegion::ConvexRegion(const std::vector<Vector2d>& hull, double margin_m,
+                           ConvexRegion recycled)
+    : edges_(std::move(recycled.edges_)) {
+  edges_.clear();
   for (size_t i = 0; i < hull.size(); ++i) {
     const Vector2d along = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
     const Vector2d inward(-along.y(), along.x());

@@ -4,21 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "modules/geometry/for_each_processor.h"
 #include "modules/geometry/marked_pixels.h"
 
 namespace declutter {
 namespace {
 
-// Pixels of one row, each connected with the next one: elements begin .. end - 1.
-struct Run {
-  size_t begin, end;
-};
-
-// Disjoint sets; the root of a set is its smallest element.
+// Disjoint sets, in given memory; the root of a set is its smallest element.
 class DisjointSets {
  public:
-  explicit DisjointSets(size_t size) {
-    for (size_t i = 0; i < size; ++i) parent_.push_back(i);
+  DisjointSets(size_t size, std::vector<size_t>* parent) : parent_(*parent) {
+    parent_.resize(size);
+    for (size_t i = 0; i < size; ++i) parent_[i] = i;
   }
   size_t Root(size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
@@ -32,37 +29,46 @@ class DisjointSets {
   }
 
  private:
-  std::vector<size_t> parent_;
+  std::vector<size_t>& parent_;
 };
 
-// The marked pixels of an image, cut into runs, and the first run of each row.
-struct Rows {
-  std::vector<Run> runs;
-  std::vector<size_t> first_run;
-};
+constexpr uint8_t kBegins = 1, kEnds = 2;
 
-Rows FindRuns(size_t width, size_t height, const std::vector<uint8_t>& mask,
-              const std::vector<float>& values, float max_step) {
-  Rows rows;
-  for (size_t v = 0; v < height; ++v) {
-    rows.first_run.push_back(rows.runs.size());
-    size_t end = 0;  // of the last run
-    ForEachMarked(mask.data(), v * width, (v + 1) * width, [&](size_t p) {
-      if (p == end && p > v * width && std::abs(values[p] - values[p - 1]) <= max_step) {
-        rows.runs.back().end = p + 1;
-      } else {
-        rows.runs.push_back({p, p + 1});
-      }
-      end = p + 1;
+// Marks in joined[1 .. num - 1] the pixels of a row that are connected with the one before, and in
+// edges those that a run begins or ends with.
+DECLUTTER_FOR_EACH_PROCESSOR void MarkEdges(const uint8_t* mask, const float* values, size_t num,
+                                            float max_step, uint8_t* joined, uint8_t* edges) {
+  for (size_t i = 1; i < num; ++i) {
+    const uint8_t is_near = std::abs(values[i] - values[i - 1]) <= max_step;
+    joined[i] = mask[i] & mask[i - 1] & is_near;
+  }
+  for (size_t i = 0; i < num; ++i) {
+    const int begins = joined[i] > 0 ? 0 : kBegins, ends = joined[i + 1] > 0 ? 0 : kEnds;
+    edges[i] = static_cast<uint8_t>(mask[i] > 0 ? begins + ends : 0);
+  }
+}
+
+// Cuts the marked pixels into runs, each pixel of which is connected with the next one.
+void FindRuns(size_t width, size_t height, const std::vector<uint8_t>& mask,
+              const std::vector<float>& values, float max_step, ComponentRuns* rows) {
+  rows->runs.clear();
+  rows->first_run.clear();
+  rows->joined.assign(width + 1, 0);
+  rows->edges.resize(width);
+  for (size_t row = 0; row < width * height; row += width) {
+    rows->first_run.push_back(rows->runs.size());
+    MarkEdges(&mask[row], &values[row], width, max_step, rows->joined.data(), rows->edges.data());
+    ForEachMarked(rows->edges.data(), 0, width, [&](size_t u) {
+      if ((rows->edges[u] & kBegins) != 0) rows->runs.push_back({row + u, row + u});
+      if ((rows->edges[u] & kEnds) != 0) rows->runs.back().end = row + u + 1;
     });
   }
-  rows.first_run.push_back(rows.runs.size());
-  return rows;
+  rows->first_run.push_back(rows->runs.size());
 }
 
 // True when a pixel of a run connects with one of the run `above`, in the row before it.
-bool Touch(const Run& above, const Run& run, size_t width, const std::vector<float>& values,
-           float max_step) {
+bool Touch(const ComponentRun& above, const ComponentRun& run, size_t width,
+           const std::vector<float>& values, float max_step) {
   const size_t begin = std::max(run.begin, above.begin + width - 1);
   const size_t end = std::min(run.end, above.end + width + 1);
   for (size_t p = begin; p < end; ++p) {
@@ -76,40 +82,49 @@ bool Touch(const Run& above, const Run& run, size_t width, const std::vector<flo
 
 }  // namespace
 
-ImageComponents LabelComponents(int width, int height, const std::vector<uint8_t>& mask,
-                                const std::vector<float>& values, float max_step) {
+ComponentRuns FindComponents(int width, int height, const std::vector<uint8_t>& mask,
+                             const std::vector<float>& values, float max_step,
+                             ComponentRuns recycled) {
+  ComponentRuns components = std::move(recycled);
   const auto columns = static_cast<size_t>(width);
-  const Rows rows = FindRuns(columns, static_cast<size_t>(height), mask, values, max_step);
-  DisjointSets sets(rows.runs.size());
+  FindRuns(columns, static_cast<size_t>(height), mask, values, max_step, &components);
+  std::vector<ComponentRun>& runs = components.runs;
+  const std::vector<size_t>& first_run = components.first_run;
+  DisjointSets sets(runs.size(), &components.parent);
   for (size_t v = 1; v < static_cast<size_t>(height); ++v) {
-    size_t first = rows.first_run[v - 1];
-    for (size_t i = rows.first_run[v]; i < rows.first_run[v + 1]; ++i) {
-      const Run& run = rows.runs[i];
-      while (first < rows.first_run[v] && rows.runs[first].end + columns < run.begin) ++first;
-      for (size_t j = first; j < rows.first_run[v] && rows.runs[j].begin + columns <= run.end;
-           ++j) {
-        if (sets.Root(i) != sets.Root(j) && Touch(rows.runs[j], run, columns, values, max_step)) {
+    size_t first = first_run[v - 1];
+    for (size_t i = first_run[v]; i < first_run[v + 1]; ++i) {
+      const ComponentRun& run = runs[i];
+      while (first < first_run[v] && runs[first].end + columns < run.begin) ++first;
+      for (size_t j = first; j < first_run[v] && runs[j].begin + columns <= run.end; ++j) {
+        if (sets.Root(i) != sets.Root(j) && Touch(runs[j], run, columns, values, max_step)) {
           sets.Join(i, j);
         }
       }
     }
   }
 
-  ImageComponents components;
-  components.label.assign(mask.size(), -1);
-  std::vector<int32_t> number(rows.runs.size());
-  for (size_t i = 0; i < rows.runs.size(); ++i) {
+  components.num_pixels.clear();
+  for (size_t i = 0; i < runs.size(); ++i) {
     const size_t root = sets.Root(i);
     if (root == i) {
-      number[i] = static_cast<int32_t>(components.num_pixels.size());
+      runs[i].component = static_cast<int32_t>(components.num_pixels.size());
       components.num_pixels.push_back(0);
     }
-    number[i] = number[root];
-    const Run& run = rows.runs[i];
-    components.num_pixels[static_cast<size_t>(number[i])] +=
-        static_cast<int32_t>(run.end - run.begin);
+    runs[i].component = runs[root].component;
+    components.num_pixels[static_cast<size_t>(runs[i].component)] +=
+        static_cast<int32_t>(runs[i].end - runs[i].begin);
+  }
+  return components;
+}
+
+ImageComponents LabelComponents(int width, int height, const std::vector<uint8_t>& mask,
+                                const std::vector<float>& values, float max_step) {
+  ComponentRuns found = FindComponents(width, height, mask, values, max_step);
+  ImageComponents components{std::vector<int32_t>(mask.size(), -1), std::move(found.num_pixels)};
+  for (const ComponentRun& run : found.runs) {
     std::fill(components.label.begin() + static_cast<std::ptrdiff_t>(run.begin),
-              components.label.begin() + static_cast<std::ptrdiff_t>(run.end), number[i]);
+              components.label.begin() + static_cast<std::ptrdiff_t>(run.end), run.component);
   }
   return components;
 }
