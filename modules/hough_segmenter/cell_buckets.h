@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -28,12 +29,12 @@ class CellBuckets {
 
  private:
   size_t num_columns_ = 0;  // with an empty one at either side
-  std::vector<size_t> bucket_of_cell_;
-  std::vector<size_t> begin_;     // of each bucket in cells_
-  std::vector<size_t> num_free_;  // of each bucket: they come first
-  std::vector<size_t> num_kept_;  // of each bucket after Restore()
-  std::vector<size_t> cells_;     // by bucket
-  std::vector<size_t> place_;     // of each cell in cells_
+  std::vector<uint32_t> bucket_of_cell_;
+  std::vector<uint32_t> begin_;     // of each bucket in cells_
+  std::vector<uint32_t> num_free_;  // of each bucket: they come first
+  std::vector<uint32_t> num_kept_;  // of each bucket after Restore()
+  std::vector<uint32_t> cells_;     // by bucket
+  std::vector<uint32_t> place_;     // of each cell in cells_
 };
 
 }  // namespace declutter

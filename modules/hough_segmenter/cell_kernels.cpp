@@ -104,12 +104,18 @@ void CircleAgreements(const CellView& cells, const CircleShape& circle, float mi
   StoreAgreements(cells, CircleAgreement<true>(circle, min_cos), min_cos, agreements);
 }
 
-float LineSupport(const CellView& cells, const LineShape& line, float min_cos) {
-  return SumAgreements(cells, LineAgreement(line, min_cos), min_cos);
+void LineSupports(const CellView& cells, const LineShape* lines, size_t num, float min_cos,
+                  float* supports) {
+  for (size_t k = 0; k < num; ++k) {
+    supports[k] = SumAgreements(cells, LineAgreement(lines[k], min_cos), min_cos);
+  }
 }
 
-float CircleSupport(const CellView& cells, const CircleShape& circle, float min_cos) {
-  return SumAgreements(cells, CircleAgreement<false>(circle, min_cos), min_cos);
+void CircleSupports(const CellView& cells, const CircleShape* circles, size_t num, float min_cos,
+                    float* supports) {
+  for (size_t k = 0; k < num; ++k) {
+    supports[k] = SumAgreements(cells, CircleAgreement<false>(circles[k], min_cos), min_cos);
+  }
 }
 
 size_t CopyMarked(const float* marks, size_t num, size_t num_fields, const float* from,
@@ -189,8 +195,8 @@ namespace {
 
 HWY_EXPORT(LineAgreements);
 HWY_EXPORT(CircleAgreements);
-HWY_EXPORT(LineSupport);
-HWY_EXPORT(CircleSupport);
+HWY_EXPORT(LineSupports);
+HWY_EXPORT(CircleSupports);
 HWY_EXPORT(CopyMarked);
 HWY_EXPORT(RangeOf);
 HWY_EXPORT(SumOf);
@@ -208,12 +214,14 @@ void Agreements(const CellView& cells, const CircleShape& circle, float min_cos,
   HWY_DYNAMIC_DISPATCH(CircleAgreements)(cells, circle, min_cos, agreements);
 }
 
-float Support(const CellView& cells, const LineShape& line, float min_cos) {
-  return HWY_DYNAMIC_DISPATCH(LineSupport)(cells, line, min_cos);
+void Supports(const CellView& cells, const LineShape* lines, size_t num, float min_cos,
+              float* supports) {
+  HWY_DYNAMIC_DISPATCH(LineSupports)(cells, lines, num, min_cos, supports);
 }
 
-float Support(const CellView& cells, const CircleShape& circle, float min_cos) {
-  return HWY_DYNAMIC_DISPATCH(CircleSupport)(cells, circle, min_cos);
+void Supports(const CellView& cells, const CircleShape* circles, size_t num, float min_cos,
+              float* supports) {
+  HWY_DYNAMIC_DISPATCH(CircleSupports)(cells, circles, num, min_cos, supports);
 }
 
 size_t CopyMarked(const float* marks, size_t num, size_t num_fields, const float* from,

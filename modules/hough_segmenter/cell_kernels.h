@@ -31,10 +31,12 @@ struct CellView {
 void Agreements(const CellView& cells, const LineShape& line, float min_cos, float* agreements);
 void Agreements(const CellView& cells, const CircleShape& circle, float min_cos, float* agreements);
 
-// The sum of agreements times weights [px], for circles with the distance to first order, (d^2 -
-// r^2) / 2r.
-float Support(const CellView& cells, const LineShape& line, float min_cos);
-float Support(const CellView& cells, const CircleShape& circle, float min_cos);
+// Of num models each the sum of agreements times weights [px], for circles with the distance to
+// first order, (d^2 - r^2) / 2r.
+void Supports(const CellView& cells, const LineShape* lines, size_t num, float min_cos,
+              float* supports);
+void Supports(const CellView& cells, const CircleShape* circles, size_t num, float min_cos,
+              float* supports);
 
 // Copies the elements of num_fields arrays for which marks are positive. Arrays of `from` are
 // from_stride elements apart, those of `to` to_stride; both may be the same memory. Returns how

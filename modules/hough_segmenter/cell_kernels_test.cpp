@@ -76,6 +76,13 @@ constexpr float kMinCos = 0.9f;
 constexpr LineShape kLine{0.6f, -0.8f, -0.467f};
 constexpr CircleShape kCircle{0.1f, 0.7f, 0.041f};
 
+template <typename Shape>
+float SupportOf(const Cells& cells, const Shape& shape) {
+  float support = 0;
+  Supports(cells.view(), &shape, 1, kMinCos, &support);
+  return support;
+}
+
 // Each kernel beside plain loops, with every instruction set that this processor has.
 class CellKernels : public testing::TestWithParam<int64_t> {
  protected:
@@ -134,8 +141,8 @@ TEST_P(CellKernels, SupportIsTheWeightedSumOfAgreements) {
   }
   const float circle = cells_.WeightedSum(agreements);
   ASSERT_NEAR(circle, cells_.WeightedSum(cells_.Expected(kCircle, kMinCos)), 0.15f * circle);
-  EXPECT_NEAR(Support(cells_.view(), kLine, kMinCos), line, 1e-3 * line);
-  EXPECT_NEAR(Support(cells_.view(), kCircle, kMinCos), circle, 1e-3 * circle);
+  EXPECT_NEAR(SupportOf(cells_, kLine), line, 1e-3 * line);
+  EXPECT_NEAR(SupportOf(cells_, kCircle), circle, 1e-3 * circle);
 }
 
 TEST_P(CellKernels, CopyMarkedElementsToAnotherPlaceAndInPlace) {
@@ -257,7 +264,7 @@ TEST(CellKernelsOfAllTargets, GiveTheSameBits) {
   for (const int64_t target : Targets()) {
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().DeInit();
-    line.push_back(Support(cells.view(), kLine, kMinCos));
+    line.push_back(SupportOf(cells, kLine));
     circle.push_back(
         SumCircle(cells.x.data(), cells.y.data(), cells.weight.data(), Cells::kNum, kCircle).xe);
   }

@@ -19,29 +19,6 @@ void SetHeights(const CellArrays& inliers, Model* model) {
 
 }  // namespace
 
-LineModel LineThrough(const SideCell& a, const SideCell& b) {
-  LineModel line;
-  const Eigen::Vector2f t = (b.p - a.p).normalized();
-  line.n = {t.y(), -t.x()};
-  if (line.n.dot(a.n + b.n) < 0) line.n = -line.n;
-  line.rho = 0.5f * line.n.dot(a.p + b.p);
-  return line;
-}
-
-std::optional<CircleModel> CircleThrough(const SideCell& a, const SideCell& b) {
-  const float sine = a.n.x() * b.n.y() - a.n.y() * b.n.x();
-  if (std::abs(sine) < 0.1f) return std::nullopt;
-  const Eigen::Vector2f ab = b.p - a.p;
-  // c = a.p - ra * a.n = b.p - rb * b.n
-  const float ra = -(ab.x() * b.n.y() - ab.y() * b.n.x()) / sine;
-  const float rb = -(ab.x() * a.n.y() - ab.y() * a.n.x()) / sine;
-  if (ra <= 0 || rb <= 0) return std::nullopt;
-  CircleModel circle;
-  circle.r = 0.5f * (ra + rb);
-  circle.c = 0.5f * (a.p - circle.r * a.n + b.p - circle.r * b.n);
-  return circle;
-}
-
 void FitToInliers(const CellArrays& inliers, LineModel* line) {
   const float* x = inliers.field(Field::kX);
   const float* y = inliers.field(Field::kY);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "modules/hough_segmenter/cell_arrays.h"
@@ -44,13 +43,6 @@ struct Fit {
 using LineFit = Fit<LineModel>;
 using CircleFit = Fit<CircleModel>;
 
-// The line through two cells, outward on the side of their normals.
-LineModel LineThrough(const SideCell& a, const SideCell& b);
-
-// The circle around where the normals of two cells meet, going inward. Nothing when they are almost
-// parallel or meet outside.
-std::optional<CircleModel> CircleThrough(const SideCell& a, const SideCell& b);
-
 // Least squares on the inliers, weighted by points and noise: total least squares for the line,
 // whose normal keeps its side, Gauss-Newton on the distances for the circle. There must be inliers.
 void FitToInliers(const CellArrays& inliers, LineModel* line);
@@ -63,6 +55,20 @@ void SetExtent(const CellArrays& inliers, CircleModel* circle);
 inline LineShape ShapeOf(const LineModel& line) { return {line.n.x(), line.n.y(), line.rho}; }
 inline CircleShape ShapeOf(const CircleModel& circle) {
   return {circle.c.x(), circle.c.y(), circle.r};
+}
+
+// Without extents.
+inline LineModel ModelOf(const LineShape& line) {
+  LineModel model;
+  model.n = {line.nx, line.ny};
+  model.rho = line.rho;
+  return model;
+}
+inline CircleModel ModelOf(const CircleShape& circle) {
+  CircleModel model;
+  model.c = {circle.cx, circle.cy};
+  model.r = circle.r;
+  return model;
 }
 
 }  // namespace declutter

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace declutter {
 namespace {
@@ -25,7 +24,9 @@ constexpr double kMinCosUnfiltered = -1e6;  // so far below every cosine that al
 SideFitter::SideFitter(const HoughSegmenterConfig& config)
     : config_(config),
       min_cos_(static_cast<float>(config.filter_normals() ? std::cos(config.max_normal_angle_rad())
-                                                          : kMinCosUnfiltered)) {}
+                                                          : kMinCosUnfiltered)),
+      radii_{static_cast<float>(config.min_radius_m()), static_cast<float>(config.max_radius_m())} {
+}
 
 void SideFitter::Assign(FeatureMode mode, const std::vector<SideCell>& cells, uint64_t seed,
                         int64_t max_tests) {
@@ -34,12 +35,18 @@ void SideFitter::Assign(FeatureMode mode, const std::vector<SideCell>& cells, ui
   mode_ = mode;
   cells_ = &cells;
   random_ = RandomIndex(seed);
+  const auto inlier_distance = static_cast<float>(config_.inlier_distance_m());
+  sample_cells_.clear();
+  for (const SideCell& cell : cells) {
+    sample_cells_.push_back(
+        {cell.p.x(), cell.p.y(), cell.n.x(), cell.n.y(), InlierLimit(cell, inlier_distance)});
+  }
   order_.resize(cells.size());
   std::iota(order_.begin(), order_.end(), size_t{0});
   open_.Resize(cells.size());
   for (size_t i = 0; i < cells.size(); ++i) {
     std::swap(order_[i], order_[i + random_(cells.size() - i)]);
-    open_.Set(i, cells[order_[i]], order_[i], static_cast<float>(config_.inlier_distance_m()));
+    open_.Set(i, cells[order_[i]], order_[i], inlier_distance);
   }
   buckets_.Assign(cells);
   place_.resize(cells.size());
@@ -47,7 +54,7 @@ void SideFitter::Assign(FeatureMode mode, const std::vector<SideCell>& cells, ui
 }
 
 void SideFitter::Restart() {
-  pairs_.clear();
+  pairs_.Clear();
   num_left_ = open_.size();
   const float* weights = open_.field(CellArrays::kWeight);
   left_weights_.assign(weights, weights + num_left_ + kCellBlock);
@@ -57,7 +64,7 @@ void SideFitter::Restart() {
 }
 
 void SideFitter::Take(const CellSet& inliers) {
-  pairs_.clear();
+  pairs_.Clear();
   inliers.ForEach([this](size_t cell) {
     float& weight = left_weights_[place_[cell]];
     num_points_left_ -= weight;
@@ -84,61 +91,34 @@ CellView SideFitter::OpenCells(const float* weights) const {
   return cells;
 }
 
-std::optional<LineModel> SideFitter::ModelThrough(size_t a, size_t b, const LineModel*) const {
-  const SideCell& cell_a = (*cells_)[a];
-  const SideCell& cell_b = (*cells_)[b];
-  const LineModel line = LineThrough(cell_a, cell_b);
-  if (line.n.dot(cell_a.n) <= min_cos_ || line.n.dot(cell_b.n) <= min_cos_) return std::nullopt;
-  return line;
-}
-
-std::optional<CircleModel> SideFitter::ModelThrough(size_t a, size_t b, const CircleModel*) const {
-  const SideCell& cell_a = (*cells_)[a];
-  const SideCell& cell_b = (*cells_)[b];
-  const auto circle = CircleThrough(cell_a, cell_b);
-  if (!circle || circle->r < config_.min_radius_m() || circle->r > config_.max_radius_m()) {
-    return std::nullopt;
-  }
-  const auto distance = static_cast<float>(config_.inlier_distance_m());
-  for (const SideCell* cell : {&cell_a, &cell_b}) {
-    const float offset = (cell->p - circle->c).norm() - circle->r;
-    if (std::abs(offset) > InlierLimit(*cell, distance)) return std::nullopt;
-  }
-  return circle;
-}
-
 void SideFitter::DrawPairs() {
   for (int i = 0; i < config_.num_samples(); ++i) {
     size_t place = random_(open_.size());
     while (left_weights_[place] == 0) place = random_(open_.size());
-    const size_t a = open_.IndexOf(place);
+    const size_t index = open_.IndexOf(place);
+    const SampleCell& a = sample_cells_[index];
     for (int draw = 0; draw < kMaxDraws; ++draw) {
-      const auto b = buckets_.DrawNear(a, &random_);
-      if (!b || ((*cells_)[a].p - (*cells_)[*b].p).norm() <= kMinBaseline) continue;
-      pairs_.emplace_back(a, *b);
+      const auto near = buckets_.DrawNear(index, &random_);
+      if (!near) continue;
+      const SampleCell& b = sample_cells_[*near];
+      const float dx = a.x - b.x, dy = a.y - b.y;
+      if (dx * dx + dy * dy <= kMinBaseline * kMinBaseline) continue;
+      pairs_.Add(a, b);
       break;
     }
   }
 }
 
-template <typename Model>
-void SideFitter::FindCandidates(std::vector<Candidate<Model>>* candidates) {
-  if (pairs_.empty()) DrawPairs();
-  candidates->clear();
-  for (const auto& [a, b] : pairs_) {
-    const auto model = ModelThrough(a, b, static_cast<const Model*>(nullptr));
-    if (model) candidates->push_back({*model, candidates->size()});
-  }
+void SideFitter::FindCandidates(std::vector<LineShape>* lines) const {
+  LinesThrough(pairs_, min_cos_, lines);
 }
 
-template <typename Model>
-bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* fit) {
-  if (is_spent() || num_left_ == 0 ||
-      num_points_left_ < static_cast<float>(config_.min_inliers())) {
-    return false;
-  }
-  FindCandidates(candidates);
-  if (candidates->empty()) return false;
+void SideFitter::FindCandidates(std::vector<CircleShape>* circles) const {
+  CirclesThrough(pairs_, radii_, circles);
+}
+
+template <typename Shape>
+bool SideFitter::Rank(const std::vector<Shape>& candidates) {
   // Parts of the open cells in which about so many are left.
   const auto part_with = [this](size_t num) {
     return std::min(open_.size(), num * open_.size() / num_left_);
@@ -146,30 +126,46 @@ bool SideFitter::FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* 
   const size_t num_scored = part_with(kMaxScoredCells);
   const size_t num_first = part_with(kFirstScoredCells);
   const size_t begin = random_(open_.size() - num_scored + 1);
-  const auto is_better = [](const auto& x, const auto& y) {
-    return x.score != y.score ? x.score > y.score : x.sample < y.sample;
-  };
   const CellView left = OpenCells(left_weights_.data());
-  const CellView first = left.Part(begin, num_first);
-  num_tests_ += static_cast<int64_t>(candidates->size() * num_first);
-  for (auto& candidate : *candidates) {
-    candidate.score = Support(first, ShapeOf(candidate.model), min_cos_);
-  }
+  scores_.resize(candidates.size());
+  Supports(left.Part(begin, num_first), candidates.data(), candidates.size(), min_cos_,
+           scores_.data());
+  num_tests_ += static_cast<int64_t>(candidates.size() * num_first);
+
+  const auto is_better = [this](size_t i, size_t j) {
+    return scores_[i] != scores_[j] ? scores_[i] > scores_[j] : i < j;
+  };
+  ranking_.resize(candidates.size());
+  std::iota(ranking_.begin(), ranking_.end(), size_t{0});
   if (num_scored > num_first) {
     const size_t num_finalists =
-        std::min(candidates->size(), std::max(kMinFinalists, candidates->size() / 4));
-    std::partial_sort(candidates->begin(),
-                      candidates->begin() + static_cast<std::ptrdiff_t>(num_finalists),
-                      candidates->end(), is_better);
-    candidates->resize(num_finalists);
+        std::min(candidates.size(), std::max(kMinFinalists, candidates.size() / 4));
+    std::partial_sort(ranking_.begin(),
+                      ranking_.begin() + static_cast<std::ptrdiff_t>(num_finalists), ranking_.end(),
+                      is_better);
+    ranking_.resize(num_finalists);
     const CellView rest = left.Part(begin + num_first, num_scored - num_first);
-    num_tests_ += static_cast<int64_t>(candidates->size() * rest.num);
-    for (auto& candidate : *candidates) {
-      candidate.score += Support(rest, ShapeOf(candidate.model), min_cos_);
+    for (const size_t i : ranking_) {
+      float support = 0;
+      Supports(rest, &candidates[i], 1, min_cos_, &support);
+      scores_[i] += support;
     }
+    num_tests_ += static_cast<int64_t>(num_finalists * rest.num);
   }
-  const auto best = std::min_element(candidates->begin(), candidates->end(), is_better);
-  return best->score > 0 && RefitTo(best->model, left_weights_.data(), fit);
+  std::iter_swap(ranking_.begin(), std::min_element(ranking_.begin(), ranking_.end(), is_better));
+  return scores_[ranking_[0]] > 0;
+}
+
+template <typename Shape, typename Model>
+bool SideFitter::FitBest(std::vector<Shape>* candidates, Fit<Model>* fit) {
+  if (is_spent() || num_left_ == 0 ||
+      num_points_left_ < static_cast<float>(config_.min_inliers())) {
+    return false;
+  }
+  if (pairs_.empty()) DrawPairs();
+  FindCandidates(candidates);
+  return !candidates->empty() && Rank(*candidates) &&
+         RefitTo(ModelOf((*candidates)[ranking_[0]]), left_weights_.data(), fit);
 }
 
 void SideFitter::Filter(LineModel* line) {

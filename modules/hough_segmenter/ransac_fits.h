@@ -2,8 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "modules/geometry/feature_cloud.h"
@@ -11,6 +9,7 @@
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
 #include "modules/hough_segmenter/inlier_filters.h"
 #include "modules/hough_segmenter/model_fits.h"
+#include "modules/hough_segmenter/sample_kernels.h"
 
 namespace declutter {
 
@@ -52,24 +51,19 @@ class SideFitter {
   int64_t num_tests() const { return num_tests_; }  // since Assign()
 
  private:
-  template <typename Model>
-  struct Candidate {
-    Model model;
-    size_t sample = 0;  // its number
-    float score = 0;    // [px] support
-  };
-
   // Draws num_samples pairs of cells that are left, near each other, for both shapes.
   void DrawPairs();
   // The models through pairs whose cells agree with them.
-  template <typename Model>
-  void FindCandidates(std::vector<Candidate<Model>>* candidates);
-  std::optional<LineModel> ModelThrough(size_t a, size_t b, const LineModel*) const;
-  std::optional<CircleModel> ModelThrough(size_t a, size_t b, const CircleModel*) const;
+  void FindCandidates(std::vector<LineShape>* lines) const;
+  void FindCandidates(std::vector<CircleShape>* circles) const;
 
   // The best supported of num_samples samples, refitted.
-  template <typename Model>
-  bool FitBest(std::vector<Candidate<Model>>* candidates, Fit<Model>* fit);
+  template <typename Shape, typename Model>
+  bool FitBest(std::vector<Shape>* candidates, Fit<Model>* fit);
+  // Sets scores_ and ranking_ such that the first of the best supported candidates is
+  // candidates[ranking_[0]]; false when none has support.
+  template <typename Shape>
+  bool Rank(const std::vector<Shape>& candidates);
 
   // Fills inliers_ with the filtered inliers of a model among the open cells with a weight; false
   // when they have fewer than N points.
@@ -92,6 +86,7 @@ class SideFitter {
 
   HoughSegmenterConfig config_;
   float min_cos_;  // of the angle between the normals of an inlier and of its model
+  Range radii_;    // [m]
   InlierFilters filters_;
   FeatureMode mode_ = FeatureMode::kDefault;
   const std::vector<SideCell>* cells_ = nullptr;
@@ -107,9 +102,12 @@ class SideFitter {
   CellBuckets buckets_;  // of the cells that are left
   std::vector<float> marks_;
   std::vector<size_t> order_;
-  std::vector<std::pair<size_t, size_t>> pairs_;  // of cells; empty until they are drawn
-  std::vector<Candidate<LineModel>> lines_;
-  std::vector<Candidate<CircleModel>> circles_;
+  std::vector<SampleCell> sample_cells_;  // all cells
+  SamplePairs pairs_;                     // empty until they are drawn
+  std::vector<LineShape> lines_;
+  std::vector<CircleShape> circles_;
+  std::vector<float> scores_;    // [px] support of candidates
+  std::vector<size_t> ranking_;  // of candidates
 };
 
 }  // namespace declutter

@@ -21,22 +21,22 @@ class Footprint {
   explicit Footprint(const Solid& solid)
       : is_round_(solid.shape == Shape::kCylinder),
         half_(0.5f * solid.size.head<2>().cast<float>()),
-        reach_(half_.norm()),
         centre_(solid.X_CO.translation().head<2>().cast<float>()),
         x_axis_(solid.X_CO.linear().col(0).head<2>().cast<float>()) {}
 
   // [m] around all points on the side, of which none has a larger sigma.
   Eigen::AlignedBox2f Box(float max_sigma) const {
-    const Eigen::Vector2f half = Eigen::Vector2f::Constant(reach_ + Tolerance(max_sigma));
+    const Eigen::Vector2f x = x_axis_.cwiseAbs();
+    const Eigen::Vector2f half =
+        Eigen::Vector2f::Constant(Tolerance(max_sigma)) +
+        (is_round_ ? half_ : Eigen::Vector2f(half_.x() * x + half_.y() * x.reverse()));
     return {centre_ - half, centre_ + half};
   }
 
   // True for a point on the side whose normal, as far as it is horizontal, is that of the side.
   bool IsOnSide(const SurfacePoint& point) const {
     const float tolerance = Tolerance(point.sigma);
-    const Eigen::Vector2f p_T = point.p_T.head<2>() - centre_;
-    if (p_T.cwiseAbs().maxCoeff() > reach_ + tolerance) return false;
-    const Eigen::Vector2f p = ToO(p_T);
+    const Eigen::Vector2f p = ToO(point.p_T.head<2>() - centre_);
     const auto looks_along = [&](const Eigen::Vector2f& outward) {
       const Eigen::Vector2f n = ToO(point.n_T.head<2>());
       return n.dot(outward) > kMinCos * n.norm() * outward.norm();
@@ -52,12 +52,14 @@ class Footprint {
     return false;
   }
 
-  // False for a square of the grid, given by its middle in T, that lies well inside.
+  // False for a square of the grid, given by its middle in T, that lies well inside or outside.
   bool MayHaveSide(const Eigen::Vector2f& middle, float max_sigma) const {
     const Eigen::Vector2f p = ToO(middle - centre_);
     const float reach = Tolerance(max_sigma) + PointGrid::kHalfDiagonal;
-    return is_round_ ? p.norm() > half_.x() - reach
-                     : std::abs(p.x()) > half_.x() - reach || std::abs(p.y()) > half_.y() - reach;
+    // Beyond the side [m], along both axes or the radius.
+    const Eigen::Vector2f beyond = is_round_ ? Eigen::Vector2f::Constant(p.norm() - half_.x())
+                                             : Eigen::Vector2f(p.cwiseAbs() - half_);
+    return beyond.maxCoeff() > -reach && beyond.maxCoeff() < reach;
   }
 
  private:
@@ -69,7 +71,6 @@ class Footprint {
 
   bool is_round_;
   Eigen::Vector2f half_;
-  float reach_;  // [m] from the centre to the farthest point
   Eigen::Vector2f centre_;
   Eigen::Vector2f x_axis_;
 };
