@@ -105,9 +105,9 @@ DECLUTTER_LANES void SumNeighbors(const SideImage& sides, size_t begin,
   LoadLanes(&curvature.tangent_x[begin], tx);
   LoadLanes(&curvature.tangent_y[begin], ty);
   LoadLanes(&curvature.tangent_z[begin], tz);
-  for (int row = -window.num_rows(); row <= window.num_rows(); row += stride) {
-    const int columns = window.Columns(row);
-    const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + row * points.stride;
+  for (int step = -window.num_steps(); step <= window.num_steps(); ++step) {
+    const int columns = window.Columns(step);
+    const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + step * stride * points.stride;
     for (int column = -columns; column <= columns; column += stride) {
       const ptrdiff_t q = center + column;
       Lanes x, y, z, nx, ny, nz;

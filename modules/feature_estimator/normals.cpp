@@ -31,9 +31,9 @@ DECLUTTER_LANES void SumMoments(const PointImage& points, size_t begin,
   const float max_squared_distance = radius_m * radius_m;
   LaneMask n{};
   Moments s;
-  for (int row = -window.num_rows(); row <= window.num_rows(); row += stride) {
-    const int columns = window.Columns(row);
-    const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + row * points.stride;
+  for (int step = -window.num_steps(); step <= window.num_steps(); ++step) {
+    const int columns = window.Columns(step);
+    const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + step * stride * points.stride;
     const float* qx = points.x.data() + center;
     const float* qy = points.y.data() + center;
     const float* qz = points.z.data() + center;

@@ -8,7 +8,6 @@ namespace declutter {
 namespace {
 
 // Objects nearer than a sensor measures would ask for windows without bound.
-constexpr int kMaxMargin = 64;
 
 // A neighbour at P + e, |e| <= r, is seen |e_xy - (P_xy / z) e_z| / (z + e_z) away from P at z = 1,
 // at most r sqrt(1 + |P_xy|^2 / z^2) / (z - r).
@@ -85,8 +84,9 @@ PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min
   points.fy = static_cast<float>(camera.fy / k);
   const float max_columns =
       MaxSlope(bounds, image, static_cast<float>(max_radius_m)) * std::max(points.fx, points.fy);
-  points.margin = static_cast<int>(std::min(max_columns, static_cast<float>(kMaxMargin))) + 1;
-  points.margin = std::max(points.margin, min_margin_px);
+  const int window =
+      static_cast<int>(std::min(max_columns, static_cast<float>(PointImage::kMaxWindow - 1))) + 1;
+  points.margin = std::max(window, min_margin_px);
   points.stride = points.width + 2 * points.margin + PointImage::kLanes;
   const size_t size =
       static_cast<size_t>(points.stride) * static_cast<size_t>(points.height + 2 * points.margin);

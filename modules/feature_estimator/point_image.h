@@ -14,6 +14,8 @@ struct PointImage {
   static constexpr float kFar = 1e6F;
   // Points processed side by side; rows can be read that far beyond the grid.
   static constexpr int kLanes = 8;
+  // [px] half a window at most: closer to the camera, windows are smaller than they should be.
+  static constexpr int kMaxWindow = 65;
 
   int width = 0;               // [px] of the grid
   int height = 0;              // [px]

@@ -72,11 +72,53 @@ DECLUTTER_LANES void LimitToOne(Lanes& cosine) {
   cosine = (cosine > 1) & (cosine < kNoMinimum) ? 1.0F + Lanes{} : cosine;
 }
 
+// A few adjacent points.
+struct PointBlock {
+  Lanes x, y, z, normal_x, normal_y, normal_z;
+};
+
+// Collects from elements [first, last] neighbours in kFirst and the bins after it; they are too far
+// away for those before.
+template <size_t kNumBins, size_t kFirst>
+DECLUTTER_LANES void CollectAngles(const PointImage& points, const NormalImage& normals,
+                                   const float* known_x, const PointBlock& block,
+                                   const float* squared_edge, ptrdiff_t first, ptrdiff_t last,
+                                   Lanes* min_cosine, Lanes* max_cosine) {
+  for (ptrdiff_t q = first; q <= last; ++q) {
+    Lanes x, y, z, nx, ny, nz;
+    LoadLanes(known_x + q, x);
+    LoadLanes(points.y.data() + q, y);
+    LoadLanes(points.z.data() + q, z);
+    LoadLanes(normals.x.data() + q, nx);
+    LoadLanes(normals.y.data() + q, ny);
+    LoadLanes(normals.z.data() + q, nz);
+    x -= block.x;
+    y -= block.y;
+    z -= block.z;
+    const Lanes squared_distance = x * x + y * y + z * z;
+    const Lanes cosine = nx * block.normal_x + ny * block.normal_y + nz * block.normal_z;
+    const LaneMask cosine_bits = reinterpret_cast<LaneMask>(cosine) & kAllButSign;
+    LaneMask is_below = {};
+#pragma GCC unroll 16
+    for (size_t bin = kFirst; bin < kNumBins; ++bin) {
+      // All bits set where the neighbour is in another bin: not a number, which no comparison
+      // takes.
+      const LaneMask is_out = (squared_distance >= squared_edge[bin]) | is_below;
+      is_below = squared_distance < squared_edge[bin];
+      const Lanes value = reinterpret_cast<Lanes>(cosine_bits | is_out);
+      min_cosine[bin] = value < min_cosine[bin] ? value : min_cosine[bin];
+      max_cosine[bin] = value > max_cosine[bin] ? value : max_cosine[bin];
+    }
+  }
+}
+
 // kNumBins at least rsd.num_bins; bins beyond stay empty.
 template <size_t kNumBins>
 DECLUTTER_LANES void CollectAnglesInBins(const PointImage& points, const NormalImage& normals,
                                          const float* known_x, size_t begin,
                                          const RsdParameters& rsd, AngleBins* bins) {
+  // Of pixels so far away from a point that their neighbours can only be in the last bins.
+  constexpr size_t kFirstOfFar = kNumBins / 2 + 1;
   // Local, so that they stay in registers.
   Lanes min_cosine[kNumBins], max_cosine[kNumBins];
   float squared_edge[kNumBins];  // upper
@@ -89,43 +131,27 @@ DECLUTTER_LANES void CollectAnglesInBins(const PointImage& points, const NormalI
     max_cosine[bin] = kNoMaximum + Lanes{};
   }
   min_cosine[0] = max_cosine[0] = 1.0F + Lanes{};  // the point itself
-  Lanes px, py, pz, ax, ay, az;
-  LoadLanes(&points.x[begin], px);
-  LoadLanes(&points.y[begin], py);
-  LoadLanes(&points.z[begin], pz);
-  LoadLanes(&normals.x[begin], ax);
-  LoadLanes(&normals.y[begin], ay);
-  LoadLanes(&normals.z[begin], az);
+  PointBlock block;
+  LoadLanes(&points.x[begin], block.x);
+  LoadLanes(&points.y[begin], block.y);
+  LoadLanes(&points.z[begin], block.z);
+  LoadLanes(&normals.x[begin], block.normal_x);
+  LoadLanes(&normals.y[begin], block.normal_y);
+  LoadLanes(&normals.z[begin], block.normal_z);
   const SphereWindow window(points, begin, {rsd.radius_m});
-  for (int row = -window.num_rows(); row <= window.num_rows(); ++row) {
+  const SphereCore core(points, begin, std::sqrt(squared_edge[kFirstOfFar - 1]), window);
+  for (int row = -window.num_steps(); row <= window.num_steps(); ++row) {
     const int columns = window.Columns(row);
+    const int near_columns = std::min(core.Columns(row), columns);
     const ptrdiff_t center = static_cast<ptrdiff_t>(begin) + row * points.stride;
-    for (ptrdiff_t q = center - columns; q <= center + columns; ++q) {
-      Lanes x, y, z, nx, ny, nz;
-      LoadLanes(known_x + q, x);
-      LoadLanes(points.y.data() + q, y);
-      LoadLanes(points.z.data() + q, z);
-      LoadLanes(normals.x.data() + q, nx);
-      LoadLanes(normals.y.data() + q, ny);
-      LoadLanes(normals.z.data() + q, nz);
-      x -= px;
-      y -= py;
-      z -= pz;
-      const Lanes squared_distance = x * x + y * y + z * z;
-      const Lanes cosine = nx * ax + ny * ay + nz * az;
-      const LaneMask cosine_bits = reinterpret_cast<LaneMask>(cosine) & kAllButSign;
-      LaneMask is_below = {};
-#pragma GCC unroll 16
-      for (size_t bin = 0; bin < kNumBins; ++bin) {
-        // All bits set where the neighbour is in another bin: not a number, which no comparison
-        // takes.
-        const LaneMask is_out = (squared_distance >= squared_edge[bin]) | is_below;
-        is_below = squared_distance < squared_edge[bin];
-        const Lanes value = reinterpret_cast<Lanes>(cosine_bits | is_out);
-        min_cosine[bin] = value < min_cosine[bin] ? value : min_cosine[bin];
-        max_cosine[bin] = value > max_cosine[bin] ? value : max_cosine[bin];
-      }
-    }
+    CollectAngles<kNumBins, kFirstOfFar>(points, normals, known_x, block, squared_edge,
+                                         center - columns, center - near_columns - 1, min_cosine,
+                                         max_cosine);
+    CollectAngles<kNumBins, 0>(points, normals, known_x, block, squared_edge, center - near_columns,
+                               center + near_columns, min_cosine, max_cosine);
+    CollectAngles<kNumBins, kFirstOfFar>(points, normals, known_x, block, squared_edge,
+                                         center + near_columns + 1, center + columns, min_cosine,
+                                         max_cosine);
   }
   for (size_t bin = 0; bin < kNumBins; ++bin) {
     LimitToOne(min_cosine[bin]);

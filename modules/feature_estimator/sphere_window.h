@@ -19,8 +19,35 @@ struct Neighborhood {
   int dense_px = kReadAll;
 };
 
-// The image window of all neighbours of a few adjacent points: every stride-th row of -num_rows ..
-// num_rows, in each of them every stride-th column of -Columns(row) .. Columns(row).
+// Half widths [px] of a disc in rows at a distance from its centre, found before they are needed:
+// so the loops over pixels need not wait for roots.
+class DiscRows {
+ public:
+  // Of the rows 0, stride, 2 * stride, .. num_rows, in multiples of the stride; -stride beyond the
+  // disc, whose radius is squared_slope at z = 1.
+  DECLUTTER_LANES void Fill(float squared_slope, float fx, float inverse_fy, int max_columns,
+                            int stride, int num_rows) {
+    const float inverse_stride = 1 / static_cast<float>(stride);
+    for (int row = 0, step = 0; row <= num_rows; row += stride, ++step) {
+      const float y = static_cast<float>(row) * inverse_fy;
+      const float square = squared_slope - y * y;
+      const float columns = fx * std::sqrt(std::max(square, 0.0F));
+      columns_[step] =
+          square < 0
+              ? -stride
+              : stride * static_cast<int>(std::min(columns, static_cast<float>(max_columns)) *
+                                          inverse_stride);
+    }
+  }
+  // In row step * stride and -step * stride.
+  DECLUTTER_LANES int Columns(int step) const { return columns_[step < 0 ? -step : step]; }
+
+ private:
+  int columns_[PointImage::kMaxWindow + 1];
+};
+
+// The image window of all neighbours of a few adjacent points: rows stride() * -num_steps() ..
+// num_steps(), in each of them every stride-th column of -Columns(step) .. Columns(step).
 class SphereWindow {
  public:
   // Around the points in elements [begin, begin + PointImage::kLanes) of one row.
@@ -29,25 +56,21 @@ class SphereWindow {
       : SphereWindow(points, points.x.data(), begin, neighborhood) {}
   // Around those of them that have an x below kFar.
   DECLUTTER_LANES SphereWindow(const PointImage& points, const float* x, size_t begin,
-                               const Neighborhood& neighborhood)
-      : fx_(points.fx),
-        inverse_fy_(1 / points.fy),
-        max_columns_(static_cast<float>(points.margin)) {
+                               const Neighborhood& neighborhood) {
     const float slope = MaxSlope(points, x, begin, static_cast<float>(neighborhood.radius_m));
-    squared_slope_ = slope * slope;
-    num_rows_ = std::min(static_cast<int>(slope * points.fy), points.margin);
-    stride_ = 1 + num_rows_ / (neighborhood.dense_px + 1);
-    num_rows_ = num_rows_ / stride_ * stride_;
-    inverse_stride_ = 1 / static_cast<float>(stride_);
+    slope_ = slope;
+    const int max_rows = std::min(points.margin, PointImage::kMaxWindow);
+    const int num_rows = std::min(static_cast<int>(slope * points.fy), max_rows);
+    stride_ = 1 + num_rows / (neighborhood.dense_px + 1);
+    num_steps_ = num_rows / stride_;
+    rows_.Fill(slope * slope, points.fx, 1 / points.fy, max_rows, stride_, num_steps_ * stride_);
   }
 
+  // Half of its width at z = 1.
+  DECLUTTER_LANES float slope() const { return slope_; }
   DECLUTTER_LANES int stride() const { return stride_; }
-  DECLUTTER_LANES int num_rows() const { return num_rows_; }
-  DECLUTTER_LANES int Columns(int row) const {
-    const float y = static_cast<float>(row) * inverse_fy_;
-    const float columns = fx_ * std::sqrt(std::max(squared_slope_ - y * y, 0.0F));
-    return static_cast<int>(std::min(columns, max_columns_) * inverse_stride_) * stride_;
-  }
+  DECLUTTER_LANES int num_steps() const { return num_steps_; }
+  DECLUTTER_LANES int Columns(int step) const { return rows_.Columns(step); }
 
  private:
   // A neighbour at P + e, |e| <= r, is seen |e_xy - (P_xy / z) e_z| / (z + e_z) away from P at
@@ -69,13 +92,45 @@ class SphereWindow {
     return radius_m * std::sqrt(*std::max_element(squares, squares + PointImage::kLanes));
   }
 
-  float squared_slope_ = 0;  // half width of the window at z = 1
-  float fx_ = 0;
-  float inverse_fy_ = 0;
-  float max_columns_ = 0;
-  float inverse_stride_ = 1;
-  int num_rows_ = 0;
+  float slope_ = 0;
   int stride_ = 1;
+  int num_steps_ = 0;
+  DiscRows rows_;
+};
+
+// The part of a window in which neighbours may be nearer than a distance.
+class SphereCore {
+ public:
+  DECLUTTER_LANES SphereCore(const PointImage& points, size_t begin, float distance_m,
+                             const SphereWindow& window) {
+    const float slope = Slope(points, begin, distance_m, window);
+    rows_.Fill(slope * slope, points.fx, 1 / points.fy, PointImage::kMaxWindow, 1,
+               window.num_steps());
+  }
+
+  // Of a window with stride 1; -1: none in this row.
+  DECLUTTER_LANES int Columns(int row) const { return rows_.Columns(row); }
+
+ private:
+  static constexpr float kRounding = 1.001F;
+
+  // With rays a = P / z and b = a + e of two pixels, no point on b is nearer to P than
+  // z |a x b| / |b|, which is at least z |e| / |b|. This is the largest |e| with which one may be
+  // nearer than the distance.
+  DECLUTTER_LANES static float Slope(const PointImage& points, size_t begin, float distance_m,
+                                     const SphereWindow& window) {
+    float slope = 0;
+    for (size_t lane = 0; lane < PointImage::kLanes; ++lane) {
+      if (!points.HasPoint(begin + lane)) continue;
+      const float z = points.z[begin + lane];
+      const float x = points.x[begin + lane] / z, y = points.y[begin + lane] / z;
+      const float reach = std::sqrt(x * x + y * y) + window.slope();
+      slope = std::max(slope, kRounding * distance_m / z * std::sqrt(1 + reach * reach));
+    }
+    return slope;
+  }
+
+  DiscRows rows_;
 };
 
 }  // namespace declutter

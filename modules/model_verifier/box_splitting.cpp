@@ -19,6 +19,8 @@ struct Footprint {
   double area() const { return (high - low).prod(); }
 };
 
+using Coordinates = std::array<std::vector<double>, 2>;  // x and y of points
+
 std::array<double, 2> Ends(std::vector<double>* values) {
   const auto quantile = [&](double share) {
     const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values->size() - 1));
@@ -30,8 +32,9 @@ std::array<double, 2> Ends(std::vector<double>* values) {
 
 // Around the points with from < coordinate along the axis <= to; nothing when they are few.
 std::optional<Footprint> Around(const std::vector<Eigen::Vector3d>& points_O, int axis, double from,
-                                double to) {
-  std::array<std::vector<double>, 2> values;
+                                double to, Coordinates* buffer) {
+  Coordinates& values = *buffer;
+  for (std::vector<double>& along : values) along.clear();
   for (const Eigen::Vector3d& p : points_O) {
     if (p[axis] <= from || p[axis] > to) continue;
     values[0].push_back(p.x());
@@ -58,12 +61,13 @@ Solid BoxOver(const Footprint& footprint, const Solid& box) {
 std::optional<std::array<Solid, 2>> SplitBox(const Solid& box,
                                              const std::vector<Eigen::Vector3d>& points_O) {
   std::optional<std::array<Solid, 2>> best;
+  Coordinates buffer;
   double best_area = kMaxArea * box.size.x() * box.size.y();
   for (int axis = 0; axis < 2; ++axis) {
     for (int k = 1; k < kNumCuts; ++k) {
       const double cut = box.size[axis] * (static_cast<double>(k) / kNumCuts - 0.5);
-      const auto lower = Around(points_O, axis, -box.size[axis], cut);
-      const auto upper = Around(points_O, axis, cut, box.size[axis]);
+      const auto lower = Around(points_O, axis, -box.size[axis], cut, &buffer);
+      const auto upper = Around(points_O, axis, cut, box.size[axis], &buffer);
       if (!lower || !upper || lower->area() + upper->area() >= best_area) continue;
       best_area = lower->area() + upper->area();
       best = {BoxOver(*lower, box), BoxOver(*upper, box)};

@@ -58,17 +58,14 @@ bool IsEdgeSeen(const Solid& solid, const DepthImage& image, int axis, int sign)
   return votes.seen > votes.hidden;
 }
 
-// Explained pixels on each face.
+// [px] explained on each face.
 std::array<std::array<int, 2>, 3> PointsOnFaces(const Solid& solid, const RayEvidence& evidence,
-                                                const DepthImage& image) {
+                                                const std::vector<Eigen::Vector3d>& points_O) {
   std::array<std::array<int, 2>, 3> num = {};
-  const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
-  for (int32_t pixel : evidence.explained) {
-    const int u = pixel % image.camera.width;
-    const int v = pixel / image.camera.width;
-    const Eigen::Vector3d p_O = X_OC * image.PointAt(u, v);
+  const Eigen::Vector3d half = 0.5 * solid.size;
+  for (const Eigen::Vector3d& p_O : points_O) {
     int axis = 0;
-    (p_O.cwiseAbs() - 0.5 * solid.size).maxCoeff(&axis);
+    (p_O.cwiseAbs() - half).maxCoeff(&axis);
     num[static_cast<size_t>(axis)][p_O[axis] > 0] += evidence.pixel_weight;
   }
   return num;
@@ -84,14 +81,15 @@ Solid Longer(Solid solid, int axis, int sign, double growth) {
 }  // namespace
 
 SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
-                 const RayEvidence& evidence, const Observation& observation) {
+                 const RayEvidence& evidence, const std::vector<Eigen::Vector3d>& points_O,
+                 const Observation& observation, RayEvidence* buffer) {
   SolidEnds ends = {};
   if (solid.shape == Shape::kCylinder) {
     ends[2] = {given[2] == Evidence::kAssumed ? EndEvidence::kAssumed : EndEvidence::kSupport,
                EndEvidence::kEdge};
     return ends;
   }
-  const auto num_points = PointsOnFaces(solid, evidence, observation.image);
+  const auto num_points = PointsOnFaces(solid, evidence, points_O);
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
       const auto a = static_cast<size_t>(axis);
@@ -107,9 +105,10 @@ SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
         end = EndEvidence::kEdge;
       } else {
         const Solid longer = Longer(solid, axis, sign, kFreeSpaceReach);
-        const int num_violating = CastRays(longer, observation).num_violating;
-        end = num_violating >= evidence.num_violating + kMinViolating ? EndEvidence::kFreeSpace
-                                                                      : EndEvidence::kAssumed;
+        CastRays(longer, observation, buffer);
+        end = buffer->num_violating >= evidence.num_violating + kMinViolating
+                  ? EndEvidence::kFreeSpace
+                  : EndEvidence::kAssumed;
       }
     }
   }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/solid.h"
@@ -24,11 +26,13 @@ using SolidEnds = std::array<std::array<EndEvidence, 2>, 3>;
 // How far a hidden end may lie beyond its place when it is kFreeSpace [m].
 inline constexpr double kFreeSpaceReach = 0.020;
 
-// From what was explained of a solid, from what is measured just beyond its ends, and from the free
-// space that a longer one would take. `given` is what the extents of its hypothesis rest on: what
-// nobody saw there is seen as an end only where there are points on its face.
+// From what was explained of a solid (points_O, in its frame), from what is measured just beyond
+// its ends, and from the free space that a longer one would take. `given` is what the extents of
+// its hypothesis rest on: what nobody saw there is seen as an end only where there are points on
+// its face.
 SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
-                 const RayEvidence& evidence, const Observation& observation);
+                 const RayEvidence& evidence, const std::vector<Eigen::Vector3d>& points_O,
+                 const Observation& observation, RayEvidence* buffer);
 
 // What an extent rests on: the weaker of its ends.
 std::array<Evidence, 3> ExtentEvidence(const SolidEnds& ends);

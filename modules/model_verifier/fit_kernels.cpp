@@ -32,8 +32,7 @@ HWY_INLINE hn::Vec<Ints> BitsOfFace(const NearPoints& points, const RaySolid& so
   const auto is_on = hn::AndNot(
       is_turned_away, hn::And(hn::Le(distance, tolerance),
                               hn::Le(along(points.ray), Constant(-limits.min_incidence_cos))));
-  return hn::IfThenElseZero(hn::RebindMask(i32, is_on),
-                            hn::Set(i32, static_cast<int32_t>(SurfaceBit(axis, sign))));
+  return hn::IfThenElseZero(hn::RebindMask(i32, is_on), hn::Set(i32, SurfaceBit(axis, sign)));
 }
 
 HWY_INLINE hn::Vec<Ints> BitsOf(const NearPoints& points, const RaySolid& solid,
@@ -45,8 +44,8 @@ HWY_INLINE hn::Vec<Ints> BitsOf(const NearPoints& points, const RaySolid& solid,
   if (solid.is_cylinder) {
     const auto is_between =
         hn::Le(hn::Abs(points.p.z), Constant(solid.half_size[2] - limits.end_margin_m));
-    return hn::Or(bits, hn::IfThenElseZero(hn::RebindMask(i32, is_between),
-                                           hn::Set(i32, static_cast<int32_t>(kCylinderSideBit))));
+    return hn::Or(
+        bits, hn::IfThenElseZero(hn::RebindMask(i32, is_between), hn::Set(i32, kCylinderSideBit)));
   }
   for (int axis = 0; axis < 2; ++axis) {
     bits = hn::Or(bits, hn::Or(BitsOfFace(points, solid, limits, tolerance, axis, 1),
@@ -56,35 +55,32 @@ HWY_INLINE hn::Vec<Ints> BitsOf(const NearPoints& points, const RaySolid& solid,
 }
 
 // Appends the points that have bits.
-HWY_INLINE size_t Store(const NearPoints& points, const hn::Vec<Ints>& bits, FitPoint* stored) {
-  constexpr size_t kMembers = 11;
+HWY_INLINE void AppendPoints(const NearPoints& points, const hn::Vec<Ints>& bits,
+                             FitArrays* arrays) {
   const Floats f;
   const Ints i32;
-  HWY_ALIGN float members[kMembers][kRayPadding];
-  HWY_ALIGN int32_t surfaces[kRayPadding];
-  const Vector* const all[kMembers] = {&points.p.x,   &points.p.y,   &points.p.z,   &points.n.x,
-                                       &points.n.y,   &points.n.z,   &points.ray.x, &points.ray.y,
-                                       &points.ray.z, &points.sigma, &points.area};
-  for (size_t m = 0; m < kMembers; ++m) hn::Store(*all[m], f, members[m]);
-  hn::Store(bits, i32, surfaces);
-  size_t num = 0;
-  for (size_t i = 0; i < hn::Lanes(f); ++i) {
-    if (surfaces[i] == 0) continue;
-    stored[num++] = {{members[0][i], members[1][i], members[2][i]},
-                     {members[3][i], members[4][i], members[5][i]},
-                     {members[6][i], members[7][i], members[8][i]},
-                     members[9][i],
-                     members[10][i],
-                     static_cast<uint32_t>(surfaces[i])};
+  const auto is_on = hn::Ne(bits, hn::Zero(i32));
+  const auto append = [&](const Vector& values, float* array) {
+    Append(f, values, hn::RebindMask(f, is_on), array + arrays->num);
+  };
+  const Vector3* const vectors[] = {&points.p, &points.n, &points.ray};
+  float* const* const to[] = {arrays->p, arrays->n, arrays->ray};
+  for (int k = 0; k < 3; ++k) {
+    append(vectors[k]->x, to[k][0]);
+    append(vectors[k]->y, to[k][1]);
+    append(vectors[k]->z, to[k][2]);
   }
-  return num;
+  append(points.sigma, arrays->sigma);
+  append(points.area, arrays->area);
+  Append(i32, bits, is_on, arrays->surfaces + arrays->num);
+  arrays->num += hn::CountTrue(i32, is_on);
 }
 
-HWY_INLINE size_t FindInPixels(const RaySolid& solid, const RayWindow& window,
-                               const FitLimits& limits, int u, int v, FitPoint* stored) {
+HWY_INLINE void FindInPixels(const RaySolid& solid, const RayWindow& window,
+                             const FitLimits& limits, int u, int v, FitArrays* arrays) {
   const Floats f;
   const Pixels pixels = PixelsAt(window, u, v);
-  if (hn::AllFalse(f, pixels.is_measured)) return 0;
+  if (hn::AllFalse(f, pixels.is_measured)) return;
   const Vector3 ray_O = Rotate(solid.R_OC, pixels.ray_C);
   NearPoints points;
   points.p = PointInO(solid, ray_O, pixels.z);
@@ -94,7 +90,7 @@ HWY_INLINE size_t FindInPixels(const RaySolid& solid, const RayWindow& window,
     is_near = hn::And(is_near,
                       hn::Le(hn::Abs(*p[axis]), Constant(solid.half_size[axis] + limits.margin_m)));
   }
-  if (hn::AllFalse(f, is_near)) return 0;
+  if (hn::AllFalse(f, is_near)) return;
   const auto square = hn::Mul(pixels.z, pixels.z);
   const Vector3& r = pixels.ray_C;
   const auto length =
@@ -106,18 +102,17 @@ HWY_INLINE size_t FindInPixels(const RaySolid& solid, const RayWindow& window,
   points.has_normal = IsKnown(n_C);
   points.n = Rotate(solid.R_OC, n_C);
   const auto bits = BitsOf(points, solid, limits);
-  return Store(points, hn::IfThenElseZero(hn::RebindMask(Ints(), is_near), bits), stored);
+  AppendPoints(points, hn::IfThenElseZero(hn::RebindMask(Ints(), is_near), bits), arrays);
 }
 
-size_t FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
-                     FitPoint* points) {
-  size_t num = 0;
+void FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
+                   FitArrays* points) {
+  points->num = 0;
   for (int v = window.v_begin; v < window.v_end; ++v) {
     for (int u = window.u_begin; u < window.u_end; u += static_cast<int>(hn::Lanes(Floats()))) {
-      num += FindInPixels(solid, window, limits, u, v, points + num);
+      FindInPixels(solid, window, limits, u, v, points);
     }
   }
-  return num;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -132,9 +127,9 @@ HWY_EXPORT(FindFitPoints);
 
 }  // namespace
 
-size_t FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
-                     FitPoint* points) {
-  return HWY_DYNAMIC_DISPATCH(FindFitPoints)(solid, window, limits, points);
+void FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
+                   FitArrays* points) {
+  HWY_DYNAMIC_DISPATCH(FindFitPoints)(solid, window, limits, points);
 }
 
 }  // namespace declutter

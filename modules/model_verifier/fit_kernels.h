@@ -5,24 +5,26 @@
 
 #include "modules/model_verifier/ray_kernels.h"
 
-// Loops over the pixels of a grid by SIMD, dispatched at run time to what the processor has.
-// Results are the same bits with every instruction set.
+// Loops over the pixels of a grid, and over the points found in it, by SIMD, dispatched at run time
+// to what the processor has. Results are the same bits with every instruction set.
 namespace declutter {
 
-// A measurement on a surface of a solid, in its frame O.
-struct FitPoint {
-  float p_O[3];       // [m]
-  float n_O[3];       // measured unit normal, zero: unknown
-  float ray_O[3];     // unit direction from the camera to the point
-  float sigma;        // [m] standard deviation along the ray
-  float pixel_area;   // [m^2] of the pixels that it stands for, at right angles to the ray
-  uint32_t surfaces;  // bits, see SurfaceBit
+// Measurements on surfaces of a solid, in its frame O: element i of each array is of point i.
+// Arrays have kRayPadding elements behind the last one.
+struct FitArrays {
+  float* p[3] = {};             // [m]
+  float* n[3] = {};             // measured unit normal, zero: unknown
+  float* ray[3] = {};           // unit direction from the camera to the point
+  float* sigma = nullptr;       // [m] standard deviation along the ray
+  float* area = nullptr;        // [m^2] of the pixels that it stands for, across the ray
+  int32_t* surfaces = nullptr;  // bits, see SurfaceBit
+  size_t num = 0;
 };
 
 // The bit of the face at the side `sign` of an axis of O. The side of a cylinder has that of axis
 // 0.
-constexpr uint32_t SurfaceBit(int axis, int sign) { return 1u << (2 * axis + (sign > 0)); }
-inline constexpr uint32_t kCylinderSideBit = SurfaceBit(0, 1);
+constexpr int32_t SurfaceBit(int axis, int sign) { return 1 << (2 * axis + (sign > 0)); }
+inline constexpr int32_t kCylinderSideBit = SurfaceBit(0, 1);
 
 // What a point on a surface is.
 struct FitLimits {
@@ -36,10 +38,10 @@ struct FitLimits {
   float area_per_square = 0;      // [1] of a pixel, over its squared depth
 };
 
-// Appends the points of a window that lie on a surface of the solid, except its lower end: a face
+// Fills in the points of a window that lie on a surface of the solid, except its lower end: a face
 // of a box, the top of a cylinder, or, whatever their distance from the axis, between the ends of
-// one. Returns how many; `points` has room for all pixels of the window.
-size_t FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
-                     FitPoint* points);
+// one. The arrays have room for all pixels of the window.
+void FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
+                   FitArrays* points);
 
 }  // namespace declutter

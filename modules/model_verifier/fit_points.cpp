@@ -1,6 +1,6 @@
 #include "modules/model_verifier/fit_points.h"
 
-#include <algorithm>
+#include <iterator>
 
 #include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/projection.h"
@@ -28,9 +28,16 @@ void FitPoints::Find(const Solid& solid, const Observation& observation) {
   const FitLimits limits = LimitsFor(observation.grid, observation.image.camera);
   const RayWindow window = WindowOf(solid, limits.margin_m, observation);
   const auto room = static_cast<size_t>(window.u_end - window.u_begin) *
-                    static_cast<size_t>(window.v_end - window.v_begin);
-  points_.resize(std::max(points_.size(), room));
-  num_ = FindFitPoints(AsRaySolid(solid, observation.support), window, limits, points_.data());
+                        static_cast<size_t>(window.v_end - window.v_begin) +
+                    kRayPadding;
+  float** const arrays[] = {&arrays_.p[0],   &arrays_.p[1],  &arrays_.p[2],   &arrays_.n[0],
+                            &arrays_.n[1],   &arrays_.n[2],  &arrays_.ray[0], &arrays_.ray[1],
+                            &arrays_.ray[2], &arrays_.sigma, &arrays_.area};
+  buffer_.resize(room * std::size(arrays));
+  for (size_t i = 0; i < std::size(arrays); ++i) *arrays[i] = &buffer_[i * room];
+  surfaces_.resize(room);
+  arrays_.surfaces = surfaces_.data();
+  FindFitPoints(AsRaySolid(solid, observation.support), window, limits, &arrays_);
   pixel_weight_ = observation.grid.pixel_weight();
 }
 

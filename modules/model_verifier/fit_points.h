@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include "modules/geometry/solid.h"
+#include "modules/geometry/uninitialized.h"
 #include "modules/model_verifier/fit_kernels.h"
 #include "modules/model_verifier/observation.h"
 
@@ -14,14 +13,14 @@ class FitPoints {
   // Those on the faces of a box, on the top of a cylinder, and between its ends.
   void Find(const Solid& solid, const Observation& observation);
 
-  const FitPoint* begin() const { return points_.data(); }
-  const FitPoint* end() const { return points_.data() + num_; }
+  const FitArrays& arrays() const { return arrays_; }
   // [px] of the sensor that each stands for.
   int pixel_weight() const { return pixel_weight_; }
 
  private:
-  std::vector<FitPoint> points_;
-  size_t num_ = 0;
+  UninitializedVector<float> buffer_;
+  UninitializedVector<int32_t> surfaces_;
+  FitArrays arrays_;
   int pixel_weight_ = 1;
 };
 

@@ -20,7 +20,10 @@ void GradientNormals::Compute(const PinholeCamera& camera, const PixelGrid& all,
   for (size_t i = 0; i < all.z.size(); ++i) inverse_depth_[i] = all.z[i] > 0 ? 1 / all.z[i] : 0;
 
   const size_t means_stride = columns + 2 * kMargin;
-  means_.assign((rows + 2 * kMargin) * means_stride, 0);
+  const size_t num_means = (rows + 2 * kMargin) * means_stride;
+  // The margin stays zero from frame to frame.
+  if (means_.size() != num_means || means_stride != means_stride_) means_.assign(num_means, 0);
+  means_stride_ = means_stride;
   float* const means = means_.data() + kMargin * means_stride + kMargin;
   for (size_t v = 1; v + 1 < rows; ++v) {
     const float* middle = &inverse_depth_[v * all.stride];

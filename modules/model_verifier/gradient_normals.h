@@ -35,6 +35,7 @@ class GradientNormals {
   std::vector<float> x_, y_, z_;
   std::vector<float> inverse_depth_;  // [1/m] of all pixels, 0: not measured
   std::vector<float> means_;          // of it around all pixels, and a margin of zeros
+  size_t means_stride_ = 0;
 };
 
 }  // namespace declutter

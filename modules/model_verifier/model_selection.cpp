@@ -17,11 +17,12 @@ constexpr double kMinImprovement = 1.02;  // of the gain, for an exchange
 constexpr size_t kMaxParts = 64;          // of boxes that are split, in one frame
 constexpr int8_t kUnknown = -1;
 
-double MisfitShareOf(const Candidate& candidate, const Observation& observation) {
+double MisfitShareOf(const Candidate& candidate, const Observation& observation,
+                     std::vector<Eigen::Vector3d>* points_O) {
   const Solid& solid = candidate.hypothesis.solid;
-  return MisfitShare(
-      SystematicMisfit(solid, ExplainedPoints(solid, candidate.evidence, observation)) /
-      MeasurementSigma(solid.X_CO.translation().z()));
+  FindExplainedPoints(solid, candidate.evidence, observation, points_O);
+  return MisfitShare(SystematicMisfit(solid, *points_O) /
+                     MeasurementSigma(solid.X_CO.translation().z()));
 }
 
 bool Overlap(const PixelWindow& a, const PixelWindow& b) {
@@ -144,7 +145,9 @@ bool ModelSelection::Split(size_t old, const Input& input) {
       num_free < kMaxFreeShare * evidence.num_explained()) {
     return false;
   }
-  const auto parts = SplitBox(solid, ExplainedPoints(solid, evidence, input.observation));
+  std::vector<Eigen::Vector3d>& points_O = input.buffers->explained_O;
+  FindExplainedPoints(solid, evidence, input.observation, &points_O);
+  const auto parts = SplitBox(solid, points_O);
   return parts && ReplaceByParts({(*parts)[0], (*parts)[1]}, old, 1, input);
 }
 
@@ -154,8 +157,8 @@ bool ModelSelection::CutLower(size_t old, const Input& input) {
   constexpr double kMaxMisfit = 0.6;  // [sigma]
   const Solid& solid = candidates_[old].hypothesis.solid;
   if (solid.shape != Shape::kCylinder) return false;
-  const std::vector<Eigen::Vector3d> points_O =
-      ExplainedPoints(solid, candidates_[old].evidence, input.observation);
+  std::vector<Eigen::Vector3d>& points_O = input.buffers->explained_O;
+  FindExplainedPoints(solid, candidates_[old].evidence, input.observation, &points_O);
   const double misfit =
       LayerMisfit(solid, points_O) / MeasurementSigma(solid.X_CO.translation().z());
   if (misfit < kMaxMisfit) return false;
@@ -196,7 +199,7 @@ std::optional<size_t> ModelSelection::AddPart(const Hypothesis& whole, const Sol
   }
   if (!IsPlausible(candidate.evidence)) return std::nullopt;
   candidate.is_refined = true;
-  candidate.misfit_share = MisfitShareOf(candidate, input.observation);
+  candidate.misfit_share = MisfitShareOf(candidate, input.observation, &input.buffers->explained_O);
   ++num_candidates_;
   OnMoved(added);
   return added;
@@ -233,7 +236,8 @@ bool ModelSelection::RefineRivals(const Candidate& best, const Input& input) {
     RefineOrClimb(input.observation, input.observation, 1, &candidate.hypothesis.solid,
                   &candidate.evidence, input.buffers);
     candidate.is_refined = true;
-    candidate.misfit_share = MisfitShareOf(candidate, input.observation);
+    candidate.misfit_share =
+        MisfitShareOf(candidate, input.observation, &input.buffers->explained_O);
     OnMoved(i);
     has_changed = true;
   }

@@ -20,14 +20,12 @@ constexpr int kNumFits = 2;
 // In [0, 1]: how much of the confidence in a cylinder the shape of its side leaves. None where the
 // side is clearly tapered, as that of a bowl is; less where its radius changes with height by more
 // than noise.
-double ShareOfSide(const Solid& cylinder, const RayEvidence& evidence,
-                   const Observation& observation) {
+double ShareOfSide(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
   // 6 degrees. The distortion of a sensor tilts 5 cm of a surface by 2.4 (rms).
   constexpr double kMaxTaper = 0.1;
   // Whose noise is that of one independent sample, in all six layers.
   constexpr double kPixelsPerLayer = 6 * 36;
   const double sigma = MeasurementSigma(cylinder.X_CO.translation().z());
-  const std::vector<Eigen::Vector3d> points_O = ExplainedPoints(cylinder, evidence, observation);
   const Taper taper = TaperOf(cylinder, points_O, sigma);
   if (std::abs(taper.slope) - 2 * taper.sd > kMaxTaper) return 0;
   const double misfit = LayerMisfit(cylinder, points_O) / sigma;
@@ -102,7 +100,7 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   observed_.Set(frame.image, list.planes[0]);
   // Models are selected by every second pixel; what is selected is measured with all.
   Select(hypotheses.hypotheses, observed_.every_second_pixel(), &list.objects);
-  SettleOnSupports(observed_.every_second_pixel(), &list.objects);
+  SettleOnSupports(observed_.every_second_pixel(), &list.objects, &buffers_.evidence);
   Measure(&list);
   DropUncertain(config_.min_confidence(), &list);
   return list;
@@ -145,13 +143,15 @@ void ModelVerifier::Measure(ObjectList* list) {
     ObjectModel& object = list->objects[i];
     object.confidence = static_cast<float>(
         Confidence(object, evidence_[i], NumUnexplained(object.solid, unlabelled)));
+    std::vector<Eigen::Vector3d>& points_O = buffers_.explained_O;
+    FindExplainedPoints(object.solid, evidence_[i], observation, &points_O);
     if (object.solid.shape == Shape::kCylinder) {
-      object.confidence *= static_cast<float>(ShareOfSide(object.solid, evidence_[i], observation));
+      object.confidence *= static_cast<float>(ShareOfSide(object.solid, points_O));
     }
-    const SolidEnds ends =
-        EndsOf(object.solid, object.evidence, evidence_[i], observed_.every_second_pixel());
+    const SolidEnds ends = EndsOf(object.solid, object.evidence, evidence_[i], points_O,
+                                  observed_.every_second_pixel(), &buffers_.evidence);
     object.evidence = ExtentEvidence(ends);
-    object.covariance = CovarianceOf(object.solid, ends, evidence_[i], observation);
+    object.covariance = CovarianceOf(object.solid, ends, evidence_[i], points_O, list->camera);
   }
 }
 

@@ -123,7 +123,11 @@ std::array<Evidence, 3> EvidenceOf(const RenderedScene& scene, const Solid& soli
   ObservedImage observed;
   observed.Set(scene.depth, scene.table);
   const Observation observation = observed.every_pixel();
-  return ExtentEvidence(EndsOf(solid, {}, CastRays(solid, observation), observation));
+  const RayEvidence evidence = CastRays(solid, observation);
+  std::vector<Eigen::Vector3d> points_O;
+  FindExplainedPoints(solid, evidence, observation, &points_O);
+  RayEvidence buffer;
+  return ExtentEvidence(EndsOf(solid, {}, evidence, points_O, observation, &buffer));
 }
 
 TEST(ExtentEvidence, IsObservedWithFreeSpaceAroundAndNotBehindAnOccluder) {

@@ -1,5 +1,7 @@
 #include "modules/model_verifier/pixel_grid.h"
 
+#include <algorithm>
+
 namespace declutter {
 
 void PixelGrid::Set(const DepthImage& image, int new_step) {
@@ -10,7 +12,7 @@ void PixelGrid::Set(const DepthImage& image, int new_step) {
   stride = static_cast<size_t>(columns) + kPadding;
   ray_x.assign(stride, 0);
   ray_y.assign(static_cast<size_t>(rows), 0);
-  z.assign(stride * static_cast<size_t>(rows), 0);
+  z.resize(stride * static_cast<size_t>(rows));
   for (int i = 0; i < columns; ++i) {
     ray_x[static_cast<size_t>(i)] = static_cast<float>(camera.Ray(i * step, 0).x());
   }
@@ -20,7 +22,12 @@ void PixelGrid::Set(const DepthImage& image, int new_step) {
     const uint16_t* counts =
         &image.counts[static_cast<size_t>(j) * static_cast<size_t>(step * camera.width)];
     float* depths = &z[static_cast<size_t>(j) * stride];
-    for (int i = 0; i < columns; ++i) depths[i] = scale * static_cast<float>(counts[i * step]);
+    if (step == 1) {  // by vector instructions
+      for (int i = 0; i < columns; ++i) depths[i] = scale * static_cast<float>(counts[i]);
+    } else {
+      for (int i = 0; i < columns; ++i) depths[i] = scale * static_cast<float>(counts[i * step]);
+    }
+    std::fill_n(depths + columns, kPadding, 0.0f);
   }
 }
 

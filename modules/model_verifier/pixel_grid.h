@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "modules/geometry/depth_image.h"
+#include "modules/geometry/uninitialized.h"
 
 namespace declutter {
 
@@ -18,7 +19,8 @@ struct PixelGrid {
   size_t stride = 0;         // elements from one row to the next
   std::vector<float> ray_x;  // x of the ray with z = 1, per column
   std::vector<float> ray_y;  // y of it, per row
-  std::vector<float> z;      // [m] depth, 0: not measured
+  // [m] depth, 0: not measured.
+  UninitializedVector<float> z;
 
   // Makes this the grid of an image; the planes are used again.
   void Set(const DepthImage& image, int step);

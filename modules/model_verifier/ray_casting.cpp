@@ -76,17 +76,20 @@ void CastRays(const Solid& solid, const Observation& observation, RayEvidence* r
   evidence.num_unknown = weight * counts.num_unknown;
 }
 
-std::vector<Eigen::Vector3d> ExplainedPoints(const Solid& solid, const RayEvidence& evidence,
-                                             const Observation& observation) {
+void FindExplainedPoints(const Solid& solid, const RayEvidence& evidence,
+                         const Observation& observation, std::vector<Eigen::Vector3d>* points_O) {
   const PixelGrid& grid = observation.grid;
   const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
-  std::vector<Eigen::Vector3d> points_O;
-  points_O.reserve(evidence.explained.size());
+  points_O->clear();
+  // Pixels come in their order: rows are counted along instead of divided out.
+  int row_begin = 0;
+  size_t v = 0;
   for (const int32_t pixel : evidence.explained) {
-    const int u = grid.step * (pixel % grid.columns), v = grid.step * (pixel / grid.columns);
-    points_O.push_back(X_OC * observation.image.PointAt(u, v));
+    for (; pixel >= row_begin + grid.columns; row_begin += grid.columns) ++v;
+    const auto u = static_cast<size_t>(pixel - row_begin);
+    const double z = grid.z[v * grid.stride + u];
+    points_O->push_back(X_OC * Eigen::Vector3d(z * grid.ray_x[u], z * grid.ray_y[v], z));
   }
-  return points_O;
 }
 
 int NumNear(const Solid& solid, double reach_m, const Observation& observation) {

@@ -7,6 +7,7 @@
 
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/solid.h"
+#include "modules/geometry/uninitialized.h"
 #include "modules/model_verifier/observation.h"
 #include "modules/model_verifier/projection.h"
 #include "modules/model_verifier/ray_kernels.h"
@@ -35,17 +36,18 @@ struct RayEvidence {
   // Measured on the surface: indices row * columns + column of the grid, each of which stands for
   // pixel_weight, and how well they fit, from kFitUnit on the surface with its normal to 0 at the
   // tolerances.
-  std::vector<int32_t> explained;
-  std::vector<int32_t> fits;
-  int64_t fit_sum = 0;          // of fits
-  int pixel_weight = 1;         // [px]
-  PixelWindow window;           // of the grid, that holds them all
-  std::vector<int32_t> hollow;  // indices of pixels that look into a cylinder through its open top
-  int num_contradicting = 0;    // measured on the surface, with another normal
-  int num_occluded = 0;         // hidden by something in front
-  int num_violating = 0;        // measured behind the surface: free space inside
-  int num_overhanging = 0;      // beside the solid, where its top face goes on
-  int num_unknown = 0;          // not measured
+  UninitializedVector<int32_t> explained;
+  UninitializedVector<int32_t> fits;
+  int64_t fit_sum = 0;   // of fits
+  int pixel_weight = 1;  // [px]
+  PixelWindow window;    // of the grid, that holds them all
+  // Indices of pixels that look into a cylinder through its open top.
+  UninitializedVector<int32_t> hollow;
+  int num_contradicting = 0;  // measured on the surface, with another normal
+  int num_occluded = 0;       // hidden by something in front
+  int num_violating = 0;      // measured behind the surface: free space inside
+  int num_overhanging = 0;    // beside the solid, where its top face goes on
+  int num_unknown = 0;        // not measured
 
   int num_explained() const { return pixel_weight * static_cast<int>(explained.size()); }
   // [px] that speak for the solid, by how well they fit.
@@ -60,9 +62,9 @@ struct RayEvidence {
 RayEvidence CastRays(const Solid& solid, const Observation& observation);
 void CastRays(const Solid& solid, const Observation& observation, RayEvidence* replaced);
 
-// The measured points that a solid explains, in O.
-std::vector<Eigen::Vector3d> ExplainedPoints(const Solid& solid, const RayEvidence& evidence,
-                                             const Observation& observation);
+// The measured points that a solid explains, in O [m], in place of what points_O held.
+void FindExplainedPoints(const Solid& solid, const RayEvidence& evidence,
+                         const Observation& observation, std::vector<Eigen::Vector3d>* points_O);
 
 // [px] of a grid with points above the support plane within reach_m of a solid.
 int NumNear(const Solid& solid, double reach_m, const Observation& observation);

@@ -168,8 +168,8 @@ HWY_INLINE void Explain(const RaySolid& solid, const RayWindow& window, const Ra
   counts->fit += hn::GetLane(hn::SumOfLanes(i32, fixed));
   const auto is_stored = hn::RebindMask(i32, is_explained);
   const auto index = hn::Iota(i32, v * window.columns + u);
-  hn::CompressStore(index, is_stored, i32, counts->explained + counts->num_explained);
-  hn::CompressStore(fixed, is_stored, i32, counts->fits + counts->num_explained);
+  Append(i32, index, is_stored, counts->explained + counts->num_explained);
+  Append(i32, fixed, is_stored, counts->fits + counts->num_explained);
   counts->num_explained += Count(is_explained);
 }
 
@@ -199,8 +199,8 @@ HWY_INLINE void SortHits(const RaySolid& solid, const RayWindow& window, const R
   if (kIsCylinder) {
     const auto is_hollow =
         hn::And(hn::And(is_other, passage.through_top), hn::Lt(distance, hn::Zero(f)));
-    hn::CompressStore(hn::Iota(i32, v * window.columns + u), hn::RebindMask(i32, is_hollow), i32,
-                      counts->hollow + counts->num_hollow);
+    Append(i32, hn::Iota(i32, v * window.columns + u), hn::RebindMask(i32, is_hollow),
+           counts->hollow + counts->num_hollow);
     counts->num_hollow += Count(is_hollow);
     is_other = hn::AndNot(is_hollow, is_other);
   }

@@ -33,7 +33,7 @@ struct RayWindow {
   const float* normal_y = nullptr;
   const float* normal_z = nullptr;
   size_t normal_stride = 0;
-  int normal_shift = 0;  // the normal of pixel (u, v) is that of (u >> shift, v >> shift)
+  int normal_shift = 0;  // 0 or 1: the normal of pixel (u, v) is that of (u >> shift, v >> shift)
   int columns = 0;       // pixel (u, v) has index v * columns + u
   int u_begin = 0, u_end = 0, v_begin = 0, v_end = 0;
 };

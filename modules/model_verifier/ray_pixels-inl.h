@@ -74,17 +74,24 @@ HWY_INLINE Pixels PixelsAt(const RayWindow& window, int u, int v) {
 
 HWY_INLINE Vector3 NormalsAt(const RayWindow& window, int u, int v) {
   const Floats f;
-  const Ints i32;
-  const size_t row = static_cast<size_t>(v >> window.normal_shift) * window.normal_stride;
-  if (window.normal_shift == 0) {
-    const size_t i = row + static_cast<size_t>(u);
-    return {hn::LoadU(f, window.normal_x + i), hn::LoadU(f, window.normal_y + i),
-            hn::LoadU(f, window.normal_z + i)};
-  }
-  const auto i = hn::ShiftRightSame(hn::Iota(i32, u), window.normal_shift);
-  return {hn::GatherIndex(f, window.normal_x + row, i),
-          hn::GatherIndex(f, window.normal_y + row, i),
-          hn::GatherIndex(f, window.normal_z + row, i)};
+  const size_t i = static_cast<size_t>(v >> window.normal_shift) * window.normal_stride +
+                   static_cast<size_t>(u >> window.normal_shift);
+  const Vector3 n = {hn::LoadU(f, window.normal_x + i), hn::LoadU(f, window.normal_y + i),
+                     hn::LoadU(f, window.normal_z + i)};
+  if (window.normal_shift == 0) return n;
+  // Every normal is that of two pixels.
+  const auto of_pixels = hn::IndicesFromVec(f, hn::ShiftRight<1>(hn::Iota(Ints(), u & 1)));
+  return {hn::TableLookupLanes(n.x, of_pixels), hn::TableLookupLanes(n.y, of_pixels),
+          hn::TableLookupLanes(n.z, of_pixels)};
+}
+
+// Writes the marked values one behind the other, and anything behind the last of them. To compress
+// in a register is many times faster than hn::CompressStore on processors that do that in
+// microcode.
+template <class D>
+HWY_INLINE void Append(D d, const hn::Vec<D>& values, const hn::Mask<D>& is_marked,
+                       hn::TFromD<D>* end) {
+  hn::StoreU(hn::Compress(values, is_marked), d, end);
 }
 
 HWY_INLINE Vector Tolerance(const RayLimits& limits, const Vector& z) {

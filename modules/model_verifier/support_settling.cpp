@@ -60,47 +60,49 @@ struct Floor {
   int32_t supported_by = 0;  // id of the object below, 0: the support plane
 };
 
-// Floors below a solid, lowest first. An object under much of its footprint hides all lower ones.
-std::vector<Floor> FloorsBelow(const std::vector<ObjectModel>& objects, size_t upper, double bottom,
-                               const Plane& support) {
-  std::vector<Floor> floors = {Floor()};
+// Makes floors those below a solid, lowest first. An object under much of its footprint hides all
+// lower ones.
+void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper, double bottom,
+                     const Plane& support, std::vector<Floor>* floors) {
+  floors->assign(1, Floor());
   for (size_t j = 0; j < upper; ++j) {
     const double top = Top(objects[j].solid, support);
     const double share = FootprintOver(objects[upper].solid, objects[j].solid);
     if (top > bottom + kSupportTolerance || share < kMinFootprint) continue;
     if (share > kFullFootprint) {
-      floors.erase(std::remove_if(floors.begin(), floors.end(),
-                                  [top](const Floor& floor) { return floor.height < top; }),
-                   floors.end());
+      floors->erase(std::remove_if(floors->begin(), floors->end(),
+                                   [top](const Floor& floor) { return floor.height < top; }),
+                    floors->end());
     }
-    floors.push_back({top, static_cast<int32_t>(j + 1)});
+    const auto above = std::find_if(floors->begin(), floors->end(),
+                                    [top](const Floor& floor) { return floor.height > top; });
+    floors->insert(above, {top, static_cast<int32_t>(j + 1)});
   }
-  std::stable_sort(floors.begin(), floors.end(),
-                   [](const Floor& a, const Floor& b) { return a.height < b.height; });
-  return floors;
 }
 
 }  // namespace
 
-void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects) {
+void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects,
+                      RayEvidence* buffer) {
   const Plane& support = observation.support;
-  std::stable_sort(objects->begin(), objects->end(),
-                   [&](const ObjectModel& a, const ObjectModel& b) {
-                     return Top(a.solid, support) < Top(b.solid, support);
-                   });
+  std::sort(objects->begin(), objects->end(), [&](const ObjectModel& a, const ObjectModel& b) {
+    return Top(a.solid, support) < Top(b.solid, support);
+  });
   const auto num_violating = [&](const Solid& solid) {
-    return CastRays(solid, observation).num_violating;
+    CastRays(solid, observation, buffer);
+    return buffer->num_violating;
   };
+  std::vector<Floor> floors;
   for (size_t i = 0; i < objects->size(); ++i) {
     ObjectModel& upper = (*objects)[i];
     const double bottom = Bottom(upper.solid, support);
-    const std::vector<Floor> floors = FloorsBelow(*objects, i, bottom, support);
+    FindFloorsBelow(*objects, i, bottom, support, &floors);
     if (upper.evidence[2] != Evidence::kAssumed) {
       upper.supported_by = floors.back().supported_by;
       continue;
     }
-    const RayEvidence seen = CastRays(upper.solid, observation);
-    const double max_violating = seen.num_violating + kMaxNewViolating * seen.num_explained();
+    CastRays(upper.solid, observation, buffer);
+    const double max_violating = buffer->num_violating + kMaxNewViolating * buffer->num_explained();
     for (const Floor& floor : floors) {
       const Solid extended = Extended(upper.solid, bottom, floor.height);
       if (&floor != &floors.back() && num_violating(extended) > max_violating) continue;

@@ -10,6 +10,7 @@ namespace declutter {
 // Extends solids whose lower end nobody saw (evidence[2] is kAssumed) down to what they stand on,
 // and sets what each stands on: the object below, or the support plane. Sorts the objects by the
 // height of their tops; supported_by counts from 1 in that order.
-void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects);
+void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects,
+                      RayEvidence* buffer);
 
 }  // namespace declutter

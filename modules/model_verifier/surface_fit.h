@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <Eigen/Core>
+#include <vector>
 
 #include "modules/model_verifier/fit_points.h"
 #include "modules/model_verifier/ray_casting.h"
@@ -18,13 +18,7 @@ inline constexpr int kMinFitPoints = 60;    // [px] that move a face
 struct FitBuffers {
   FitPoints points;
   RayEvidence evidence;
+  std::vector<Eigen::Vector3d> explained_O;
 };
-
-// 1 / variance of the distance to a surface whose normal has this cosine with the ray. Half the
-// sensor's noise does not average out at grazing rays, which bounds the weight.
-inline double Weight(const FitPoint& point, double cosine) {
-  const double sigma = point.sigma * std::max(std::abs(cosine), 0.5);
-  return 1 / (sigma * sigma);
-}
 
 }  // namespace declutter

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace declutter {
 namespace {
@@ -18,19 +19,34 @@ struct SidePoint {
   double distance;  // [m] from the side
 };
 
-double MisfitOf(const std::vector<SidePoint>& points) {
-  if (points.empty()) return 0;
-  const auto [first, last] =
-      std::minmax_element(points.begin(), points.end(),
-                          [](const SidePoint& a, const SidePoint& b) { return a.along < b.along; });
-  const double low = first->along;
-  const double strips_per_m = kNumStrips / std::max(1e-6, last->along - low);
+struct Misfit {
+  double rms = 0;  // [m] of the mean distances of strips; 0 where they are few
+  int num_points = 0;
+};
+
+// Of those points of which `side_point` makes a SidePoint. It is asked twice: where they begin and
+// end, and so the strips between, has to be known first.
+template <class F>
+Misfit MisfitOf(const std::vector<Eigen::Vector3d>& points_O, const F& side_point) {
+  double low = std::numeric_limits<double>::max();
+  double high = -low;
+  Misfit misfit;
+  for (const Eigen::Vector3d& p : points_O) {
+    const std::optional<SidePoint> point = side_point(p);
+    if (!point) continue;
+    low = std::min(low, point->along);
+    high = std::max(high, point->along);
+    ++misfit.num_points;
+  }
+  const double strips_per_m = kNumStrips / std::max(1e-6, high - low);
   std::array<double, kNumStrips> sums = {};
   std::array<int, kNumStrips> nums = {};
-  for (const SidePoint& point : points) {
+  for (const Eigen::Vector3d& p : points_O) {
+    const std::optional<SidePoint> point = side_point(p);
+    if (!point) continue;
     const auto strip =
-        std::min(kNumStrips - 1, static_cast<size_t>((point.along - low) * strips_per_m));
-    sums[strip] += point.distance;
+        std::min(kNumStrips - 1, static_cast<size_t>((point->along - low) * strips_per_m));
+    sums[strip] += point->distance;
     ++nums[strip];
   }
   double sum = 0;
@@ -43,37 +59,34 @@ double MisfitOf(const std::vector<SidePoint>& points) {
     square_sum += mean * mean;
     ++num;
   }
-  if (num < kMinStrips) return 0;
-  return std::sqrt(std::max(0.0, square_sum / num - (sum / num) * (sum / num)));
+  if (num < kMinStrips) return misfit;
+  misfit.rms = std::sqrt(std::max(0.0, square_sum / num - (sum / num) * (sum / num)));
+  return misfit;
 }
 
-std::vector<SidePoint> OnCylinder(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
-                                  const Eigen::Vector2d& sight_O) {
-  std::vector<SidePoint> side;
-  for (const Eigen::Vector3d& p : points_O) {
+Misfit OfCylinder(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
+                  const Eigen::Vector2d& sight_O) {
+  return MisfitOf(points_O, [&](const Eigen::Vector3d& p) -> std::optional<SidePoint> {
     const Eigen::Vector2d q = p.head<2>();
-    if (std::abs(p.z()) > 0.5 * solid.height() - kEdgeMargin) continue;
+    if (std::abs(p.z()) > 0.5 * solid.height() - kEdgeMargin) return std::nullopt;
     const double angle = std::atan2(sight_O.x() * q.y() - sight_O.y() * q.x(), sight_O.dot(q));
-    if (std::abs(angle) < kOutline) {
-      side.push_back({angle * solid.radius(), q.norm() - solid.radius()});
-    }
-  }
-  return side;
+    if (std::abs(angle) >= kOutline) return std::nullopt;
+    return SidePoint{angle * solid.radius(), q.norm() - solid.radius()};
+  });
 }
 
 // Of the side of a box that is turned toward the camera across an axis.
-std::vector<SidePoint> OnBox(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
-                             int axis, double sign) {
+Misfit OfBox(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O, int axis,
+             double sign) {
   const Eigen::Vector3d half = 0.5 * solid.size;
-  std::vector<SidePoint> side;
-  for (const Eigen::Vector3d& p : points_O) {
+  return MisfitOf(points_O, [&](const Eigen::Vector3d& p) -> std::optional<SidePoint> {
     const double distance = sign * p[axis] - half[axis];
-    if (std::abs(distance) < kEdgeMargin && std::abs(p.z()) < half.z() - kEdgeMargin &&
-        std::abs(p[1 - axis]) < half[1 - axis] - kEdgeMargin) {
-      side.push_back({p[1 - axis], distance});
+    if (std::abs(distance) >= kEdgeMargin || std::abs(p.z()) >= half.z() - kEdgeMargin ||
+        std::abs(p[1 - axis]) >= half[1 - axis] - kEdgeMargin) {
+      return std::nullopt;
     }
-  }
-  return side;
+    return SidePoint{p[1 - axis], distance};
+  });
 }
 
 }  // namespace
@@ -81,20 +94,22 @@ std::vector<SidePoint> OnBox(const Solid& solid, const std::vector<Eigen::Vector
 double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O) {
   const Eigen::Vector3d camera_O = solid.X_CO.inverse().translation();
   if (solid.shape == Shape::kCylinder) {
-    return MisfitOf(OnCylinder(solid, points_O, camera_O.head<2>()));
+    return OfCylinder(solid, points_O, camera_O.head<2>()).rms;
   }
-  std::vector<SidePoint> side = OnBox(solid, points_O, 0, std::copysign(1.0, camera_O.x()));
-  std::vector<SidePoint> other = OnBox(solid, points_O, 1, std::copysign(1.0, camera_O.y()));
-  return MisfitOf(side.size() > other.size() ? side : other);
+  const Misfit side = OfBox(solid, points_O, 0, std::copysign(1.0, camera_O.x()));
+  const Misfit other = OfBox(solid, points_O, 1, std::copysign(1.0, camera_O.y()));
+  return (side.num_points > other.num_points ? side : other).rms;
 }
 
 double LayerMisfit(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
-  std::vector<SidePoint> side;
-  for (const Eigen::Vector3d& p : points_O) {
-    if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) continue;
-    side.push_back({p.z(), p.head<2>().norm() - cylinder.radius()});
-  }
-  return MisfitOf(side);
+  return MisfitOf(points_O,
+                  [&](const Eigen::Vector3d& p) -> std::optional<SidePoint> {
+                    if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) {
+                      return std::nullopt;
+                    }
+                    return SidePoint{p.z(), p.head<2>().norm() - cylinder.radius()};
+                  })
+      .rms;
 }
 
 std::optional<double> StepOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
@@ -142,27 +157,26 @@ double MisfitShare(double misfit_sigmas) {
 
 Taper TaperOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O, double sigma) {
   constexpr double kMinHeight = 0.020;  // [m] between the points, to tell
-  constexpr size_t kMinNum = 30;
+  constexpr double kMinNum = 30;
   constexpr double kPixelsPerSample = 36;  // over which the noise of a sensor is correlated
-  std::vector<Eigen::Vector2d> points;     // height, distance from the side
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  // Of heights and distances from the side.
+  double num = 0, sum_z = 0, sum_d = 0, sum_zz = 0, sum_zd = 0;
   double low = 1;
   double high = -1;
   for (const Eigen::Vector3d& p : points_O) {
     if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) continue;
-    points.emplace_back(p.z(), p.head<2>().norm() - cylinder.radius());
-    mean += points.back();
+    const double d = p.head<2>().norm() - cylinder.radius();
+    ++num;
+    sum_z += p.z();
+    sum_d += d;
+    sum_zz += p.z() * p.z();
+    sum_zd += p.z() * d;
     low = std::min(low, p.z());
     high = std::max(high, p.z());
   }
-  if (points.size() < kMinNum || high - low < kMinHeight) return {};
-  mean /= static_cast<double>(points.size());
-  double zz = 0;
-  double zd = 0;
-  for (const Eigen::Vector2d& point : points) {
-    zz += (point.x() - mean.x()) * (point.x() - mean.x());
-    zd += (point.x() - mean.x()) * (point.y() - mean.y());
-  }
+  if (num < kMinNum || high - low < kMinHeight) return {};
+  const double zz = sum_zz - sum_z * sum_z / num;
+  const double zd = sum_zd - sum_z * sum_d / num;
   return {zd / zz, sigma * std::sqrt(kPixelsPerSample / zz)};
 }
 

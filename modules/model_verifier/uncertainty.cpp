@@ -58,14 +58,14 @@ void AddEnds(int axis, double variance_low, double variance_high, SolidCovarianc
 }
 
 // Of centre along x and y of O and radius, from the points on the side.
-Eigen::Matrix3d CovarianceOfSide(const Solid& solid, const RayEvidence& evidence, double sigma,
-                                 const Observation& observation) {
+Eigen::Matrix3d CovarianceOfSide(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
+                                 int pixel_weight, double sigma) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Identity() / Square(kMaxSd);
-  for (const Eigen::Vector3d& p_O : ExplainedPoints(solid, evidence, observation)) {
+  for (const Eigen::Vector3d& p_O : points_O) {
     const double distance = p_O.head<2>().norm();
     if (distance - solid.radius() < std::abs(p_O.z()) - 0.5 * solid.height()) continue;
     const Eigen::Vector3d J(-p_O.x() / distance, -p_O.y() / distance, -1);
-    H += evidence.pixel_weight / (kPixelsPerSample * Square(sigma)) * J * J.transpose();
+    H += pixel_weight / (kPixelsPerSample * Square(sigma)) * J * J.transpose();
   }
   return H.inverse() + Square(kFaceBias * sigma) * Eigen::Matrix3d::Identity();
 }
@@ -90,8 +90,8 @@ double VarianceOfYaw(const Solid& solid, const SolidEnds& ends, double sigma,
 }  // namespace
 
 SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends, const RayEvidence& evidence,
-                             const Observation& observation) {
-  const PinholeCamera& camera = observation.image.camera;
+                             const std::vector<Eigen::Vector3d>& points_O,
+                             const PinholeCamera& camera) {
   const double sigma = MeasurementSigma(solid.X_CO.translation().z());
   SolidCovariance covariance = SolidCovariance::Zero();
   const auto variance = [&](int axis, int side) {
@@ -109,7 +109,7 @@ SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends, const Ra
     J(0, 0) = J(1, 1) = 1;
     J(2, 2) = J(3, 2) = 2;
     const Eigen::Matrix4d side =
-        J * CovarianceOfSide(solid, evidence, sigma, observation) * J.transpose();
+        J * CovarianceOfSide(solid, points_O, evidence.pixel_weight, sigma) * J.transpose();
     const int indices[4] = {0, 1, 3, 4};
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) covariance(indices[i], indices[j]) += side(i, j);

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
+#include "modules/geometry/depth_image.h"
 #include "modules/geometry/solid.h"
 #include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/ray_casting.h"
@@ -7,10 +11,12 @@
 namespace declutter {
 
 // Covariance of a solid from what its ends rest on and, for a cylinder, from the points on its side
-// (the inverse of the normal matrix of the last fit). Every end has an error of its own; a position
+// (points_O, in its frame:
+// the inverse of the normal matrix of the last fit). Every end has an error of its own; a position
 // has that of the depth in common, which no extent has. The standard deviations are those of
 // rendered scenes with the noise of a real sensor.
 SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends, const RayEvidence& evidence,
-                             const Observation& observation);
+                             const std::vector<Eigen::Vector3d>& points_O,
+                             const PinholeCamera& camera);
 
 }  // namespace declutter

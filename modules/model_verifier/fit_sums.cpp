@@ -1,0 +1,230 @@
+#include "modules/model_verifier/fit_sums.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "modules/model_verifier/fit_sums.cpp"
+#include <hwy/foreach_target.h>  // compiles the rest of this file once for each target
+#include <hwy/highway.h>
+
+#include "modules/model_verifier/ray_pixels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace declutter {
+namespace HWY_NAMESPACE {
+
+// A sum in sixteen parts: point i counts in part i % 16.
+class Sum {
+ public:
+  // Of the points from i on.
+  HWY_INLINE void Add(size_t i, const Vector& values) {
+    float* parts = parts_ + i % kRayPadding;
+    hn::Store(hn::Add(hn::Load(Floats(), parts), values), Floats(), parts);
+  }
+  double Total() const {
+    double total = 0;
+    for (const float part : parts_) total += part;
+    return total;
+  }
+
+ private:
+  HWY_ALIGN float parts_[kRayPadding] = {};
+};
+
+HWY_INLINE Vector3 Load(float* const components[3], size_t i) {
+  const Floats f;
+  return {hn::LoadU(f, components[0] + i), hn::LoadU(f, components[1] + i),
+          hn::LoadU(f, components[2] + i)};
+}
+
+HWY_INLINE Vector Load(float* const components[3], int axis, size_t i) {
+  return hn::LoadU(Floats(), components[axis] + i);
+}
+
+// Of the points from i on, those on a surface.
+HWY_INLINE Mask IsOn(const FitArrays& points, int32_t surface_bit, size_t i) {
+  const Ints i32;
+  const auto bits = hn::And(hn::LoadU(i32, points.surfaces + i), hn::Set(i32, surface_bit));
+  const auto is_on = hn::RebindMask(Floats(), hn::Ne(bits, hn::Zero(i32)));
+  return hn::And(is_on, hn::FirstN(Floats(), HWY_MIN(points.num - i, hn::Lanes(i32))));
+}
+
+// Half the noise of a sensor does not average out at grazing rays, which bounds the weight of what
+// is seen under them.
+HWY_INLINE Vector Weight(const FitArrays& points, const Vector& cosine, size_t i) {
+  const auto sigma =
+      hn::Mul(hn::LoadU(Floats(), points.sigma + i), hn::Max(hn::Abs(cosine), Constant(0.5f)));
+  return hn::Div(Constant(1.0f), hn::Mul(sigma, sigma));
+}
+
+FaceSums SumFace(const FitArrays& points, const FaceRegion& region) {
+  const Floats f;
+  const int axis = region.axis;
+  const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
+  FaceSums sums;
+  Sum w, wx, wl, wll, wlx;
+  for (size_t i = 0; i < points.num; i += hn::Lanes(f)) {
+    const auto is_on =
+        hn::And(IsOn(points, SurfaceBit(axis, region.sign), i),
+                hn::And(hn::Le(hn::Abs(Load(points.p, a, i)), Constant(region.inner[a])),
+                        hn::Le(hn::Abs(Load(points.p, b, i)), Constant(region.inner[b]))));
+    if (hn::AllFalse(f, is_on)) continue;
+    sums.num += Count(is_on);
+    const auto weight = hn::IfThenElseZero(is_on, Weight(points, Load(points.ray, axis, i), i));
+    const auto x =
+        hn::IfThenElseZero(is_on, hn::Sub(Load(points.p, axis, i), Constant(region.place)));
+    w.Add(i, weight);
+    wx.Add(i, hn::Mul(weight, x));
+    if (axis == 2) continue;
+    // A yaw of the solid by delta takes the plane x = place to x + delta * y = place.
+    const auto lever =
+        hn::IfThenElseZero(is_on, axis == 0 ? Load(points.p, 1, i) : hn::Neg(Load(points.p, 0, i)));
+    const auto weighted = hn::Mul(weight, lever);
+    wl.Add(i, weighted);
+    wll.Add(i, hn::Mul(weighted, lever));
+    wlx.Add(i, hn::Mul(weighted, x));
+  }
+  sums.w = w.Total();
+  sums.wx = wx.Total();
+  sums.wl = wl.Total();
+  sums.wll = wll.Total();
+  sums.wlx = wlx.Total();
+  return sums;
+}
+
+StripAreas SumStrips(const FitArrays& points, const FaceStrips& strips) {
+  const Floats f;
+  const int across = 3 - strips.face_axis - strips.axis;
+  StripAreas areas;
+  Sum reference, beyond;
+  for (size_t i = 0; i < points.num; i += hn::Lanes(f)) {
+    const auto is_on =
+        hn::And(IsOn(points, SurfaceBit(strips.face_axis, strips.face_sign), i),
+                hn::Le(hn::Abs(Load(points.p, across, i)), Constant(strips.half_across)));
+    if (hn::AllFalse(f, is_on)) continue;
+    areas.num += Count(is_on);
+    const auto x =
+        hn::Mul(Constant(static_cast<float>(strips.sign)), Load(points.p, strips.axis, i));
+    const auto is_beyond_begin = hn::Gt(x, Constant(strips.begin));
+    const auto is_reference =
+        hn::AndNot(is_beyond_begin, hn::And(is_on, hn::Gt(x, Constant(strips.reference_begin))));
+    const auto is_beyond =
+        hn::And(hn::And(is_on, is_beyond_begin), hn::Lt(x, Constant(strips.end)));
+    const auto area =
+        hn::Div(hn::LoadU(f, points.area + i), hn::Abs(Load(points.ray, strips.face_axis, i)));
+    areas.num_reference += Count(is_reference);
+    reference.Add(i, hn::IfThenElseZero(is_reference, area));
+    beyond.Add(i, hn::IfThenElseZero(is_beyond, area));
+  }
+  areas.reference = reference.Total();
+  areas.beyond = beyond.Total();
+  return areas;
+}
+
+SideSums SumSide(const FitArrays& points, const SideRegion& region) {
+  const Floats f;
+  SideSums sums;
+  Sum w, wnx, wny, wnxnx, wnxny, wnyny, wr, wnxr, wnyr;
+  for (size_t i = 0; i < points.num; i += hn::Lanes(f)) {
+    auto is_on = IsOn(points, kCylinderSideBit, i);
+    const auto x = hn::Sub(Load(points.p, 0, i), Constant(region.x));
+    const auto y = hn::Sub(Load(points.p, 1, i), Constant(region.y));
+    const auto distance = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+    const auto residual = hn::Sub(distance, Constant(region.radius));
+    const auto tolerance =
+        hn::Max(Constant(region.min_tolerance_m),
+                hn::Mul(Constant(region.tolerance_in_sigmas), hn::LoadU(f, points.sigma + i)));
+    is_on = hn::And(
+        is_on, hn::And(hn::Le(hn::Abs(residual), tolerance), hn::Ge(distance, Constant(1e-6f))));
+    if (hn::AllFalse(f, is_on)) continue;
+    const auto nx = hn::IfThenElseZero(is_on, hn::Div(x, distance));
+    const auto ny = hn::IfThenElseZero(is_on, hn::Div(y, distance));
+    const auto along = [&](const Vector3& v) {
+      return hn::Add(hn::Mul(nx, v.x), hn::Mul(ny, v.y));
+    };
+    const auto cosine = along(Load(points.ray, i));
+    const Vector3 n = Load(points.n, i);
+    const auto is_turned_away =
+        hn::And(IsKnown(n), hn::Lt(along(n), Constant(region.min_normal_cos)));
+    is_on = hn::AndNot(is_turned_away,
+                       hn::And(is_on, hn::Le(cosine, Constant(-region.min_incidence_cos))));
+    sums.num += Count(is_on);
+    const auto weight = hn::IfThenElseZero(is_on, Weight(points, cosine, i));
+    const auto r = hn::IfThenElseZero(is_on, residual);
+    const auto weighted_nx = hn::Mul(weight, nx), weighted_ny = hn::Mul(weight, ny);
+    w.Add(i, weight);
+    wnx.Add(i, weighted_nx);
+    wny.Add(i, weighted_ny);
+    wnxnx.Add(i, hn::Mul(weighted_nx, nx));
+    wnxny.Add(i, hn::Mul(weighted_nx, ny));
+    wnyny.Add(i, hn::Mul(weighted_ny, ny));
+    wr.Add(i, hn::Mul(weight, r));
+    wnxr.Add(i, hn::Mul(weighted_nx, r));
+    wnyr.Add(i, hn::Mul(weighted_ny, r));
+  }
+  sums.w = w.Total();
+  sums.nx = wnx.Total();
+  sums.ny = wny.Total();
+  sums.nxnx = wnxnx.Total();
+  sums.nxny = wnxny.Total();
+  sums.nyny = wnyny.Total();
+  sums.r = wr.Total();
+  sums.nxr = wnxr.Total();
+  sums.nyr = wnyr.Total();
+  return sums;
+}
+
+DiscSums SumDisc(const FitArrays& points, const DiscRegion& region) {
+  const Floats f;
+  DiscSums sums;
+  Sum w, wz;
+  for (size_t i = 0; i < points.num; i += hn::Lanes(f)) {
+    const auto x = hn::Sub(Load(points.p, 0, i), Constant(region.x));
+    const auto y = hn::Sub(Load(points.p, 1, i), Constant(region.y));
+    const auto is_on =
+        hn::And(IsOn(points, SurfaceBit(2, 1), i),
+                hn::Le(hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y))), Constant(region.radius)));
+    if (hn::AllFalse(f, is_on)) continue;
+    sums.num += Count(is_on);
+    const auto weight = hn::IfThenElseZero(is_on, Weight(points, Load(points.ray, 2, i), i));
+    w.Add(i, weight);
+    const auto z =
+        hn::IfThenElseZero(is_on, hn::Sub(Load(points.p, 2, i), Constant(region.height)));
+    wz.Add(i, hn::Mul(weight, z));
+  }
+  sums.w = w.Total();
+  sums.wz = wz.Total();
+  return sums;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace declutter
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace declutter {
+namespace {
+
+HWY_EXPORT(SumFace);
+HWY_EXPORT(SumStrips);
+HWY_EXPORT(SumSide);
+HWY_EXPORT(SumDisc);
+
+}  // namespace
+
+FaceSums SumFace(const FitArrays& points, const FaceRegion& region) {
+  return HWY_DYNAMIC_DISPATCH(SumFace)(points, region);
+}
+
+StripAreas SumStrips(const FitArrays& points, const FaceStrips& strips) {
+  return HWY_DYNAMIC_DISPATCH(SumStrips)(points, strips);
+}
+
+SideSums SumSide(const FitArrays& points, const SideRegion& region) {
+  return HWY_DYNAMIC_DISPATCH(SumSide)(points, region);
+}
+
+DiscSums SumDisc(const FitArrays& points, const DiscRegion& region) {
+  return HWY_DYNAMIC_DISPATCH(SumDisc)(points, region);
+}
+
+}  // namespace declutter
+#endif

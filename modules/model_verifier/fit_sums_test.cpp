@@ -1,0 +1,212 @@
+#include "modules/model_verifier/fit_sums.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace declutter {
+namespace {
+
+constexpr size_t kNum = 4003;  // no multiple of lanes
+
+// Points anywhere around a solid, on any of its surfaces; behind the last one is what was there.
+struct RandomPoints {
+  std::vector<float> buffer = std::vector<float>(11 * (kNum + kRayPadding), NAN);
+  std::vector<int32_t> surfaces = std::vector<int32_t>(kNum + kRayPadding, -1);
+  FitArrays arrays;
+
+  RandomPoints() {
+    std::mt19937 engine(1);
+    std::uniform_real_distribution<float> place(-0.1f, 0.1f), direction(-1, 1), size(0.001f, 0.01f);
+    std::uniform_int_distribution<int32_t> bits(0, 63);
+    float* next = buffer.data();
+    const auto fill = [&](auto& draw) {
+      float* const begin = next;
+      std::generate_n(begin, kNum, [&] { return draw(engine); });
+      next += kNum + kRayPadding;
+      return begin;
+    };
+    for (float*& p : arrays.p) p = fill(place);
+    for (float*& n : arrays.n) n = fill(direction);
+    for (float*& ray : arrays.ray) ray = fill(direction);
+    arrays.sigma = fill(size);
+    arrays.area = fill(size);
+    std::generate_n(surfaces.begin(), kNum, [&] { return bits(engine); });
+    for (size_t i = 0; i < kNum; i += 5) {
+      for (float* n : arrays.n) n[i] = 0;
+    }
+    arrays.surfaces = surfaces.data();
+    arrays.num = kNum;
+  }
+
+  double Weight(double cosine, size_t i) const {
+    const double sigma = arrays.sigma[i] * std::max(std::abs(cosine), 0.5);
+    return 1 / (sigma * sigma);
+  }
+};
+
+void ExpectNear(double sum, double expected) {
+  EXPECT_NEAR(sum, expected, 1e-5 * std::abs(expected) + 1e-3);
+}
+
+FaceRegion FaceAcross(int axis) { return {axis, -1, -0.05f, {0.08f, 0.07f, 0.06f}}; }
+
+TEST(FitSums, OfAFaceAreThoseOfItsPoints) {
+  const RandomPoints points;
+  const FitArrays& a = points.arrays;
+  for (int axis = 0; axis < 3; ++axis) {
+    const FaceRegion region = FaceAcross(axis);
+    FaceSums expected;
+    for (size_t i = 0; i < kNum; ++i) {
+      bool is_within = (a.surfaces[i] & SurfaceBit(axis, -1)) != 0;
+      for (int k = 0; k < 3; ++k) {
+        is_within &= k == axis || std::abs(a.p[k][i]) <= region.inner[k];
+      }
+      if (!is_within) continue;
+      const double w = points.Weight(a.ray[axis][i], i);
+      const double x = a.p[axis][i] - region.place;
+      const double lever = axis == 0 ? a.p[1][i] : axis == 1 ? -a.p[0][i] : 0;
+      ++expected.num;
+      expected.w += w;
+      expected.wx += w * x;
+      expected.wl += w * lever;
+      expected.wll += w * lever * lever;
+      expected.wlx += w * lever * x;
+    }
+    const FaceSums sums = SumFace(a, region);
+    EXPECT_EQ(sums.num, expected.num);
+    EXPECT_GT(sums.num, 50);
+    ExpectNear(sums.w, expected.w);
+    ExpectNear(sums.wx, expected.wx);
+    ExpectNear(sums.wl, expected.wl);
+    ExpectNear(sums.wll, expected.wll);
+    ExpectNear(sums.wlx, expected.wlx);
+  }
+}
+
+FaceStrips Strips() {
+  FaceStrips strips;
+  strips.face_axis = 2;
+  strips.face_sign = 1;
+  strips.axis = 0;
+  strips.sign = -1;
+  strips.half_across = 0.06f;
+  strips.reference_begin = -0.02f;
+  strips.begin = 0.03f;
+  strips.end = 0.08f;
+  return strips;
+}
+
+TEST(FitSums, OfStripsAreTheAreasOfTheirPoints) {
+  const RandomPoints points;
+  const FitArrays& a = points.arrays;
+  StripAreas expected;
+  for (size_t i = 0; i < kNum; ++i) {
+    if ((a.surfaces[i] & SurfaceBit(2, 1)) == 0 || std::abs(a.p[1][i]) > 0.06f) continue;
+    const double area = a.area[i] / std::abs(a.ray[2][i]);
+    const float x = -a.p[0][i];
+    ++expected.num;
+    if (x > -0.02f && x <= 0.03f) {
+      ++expected.num_reference;
+      expected.reference += area;
+    } else if (x > 0.03f && x < 0.08f) {
+      expected.beyond += area;
+    }
+  }
+  const StripAreas areas = SumStrips(a, Strips());
+  EXPECT_EQ(areas.num, expected.num);
+  EXPECT_EQ(areas.num_reference, expected.num_reference);
+  EXPECT_GT(areas.num_reference, 30);
+  ExpectNear(areas.reference, expected.reference);
+  ExpectNear(areas.beyond, expected.beyond);
+}
+
+SideRegion Side() { return {0.01f, -0.02f, 0.06f, 0.005f, 3, 0.2f, 0.3f}; }
+
+TEST(FitSums, OfASideAreThoseOfItsPoints) {
+  const RandomPoints points;
+  const FitArrays& a = points.arrays;
+  SideSums expected;
+  for (size_t i = 0; i < kNum; ++i) {
+    if ((a.surfaces[i] & kCylinderSideBit) == 0) continue;
+    const double x = a.p[0][i] - 0.01, y = a.p[1][i] + 0.02;
+    const double distance = std::hypot(x, y);
+    const double r = distance - 0.06;
+    const double nx = x / distance, ny = y / distance;
+    const double cosine = nx * a.ray[0][i] + ny * a.ray[1][i];
+    const bool is_turned_away = a.n[2][i] != 0 && nx * a.n[0][i] + ny * a.n[1][i] < 0.3;
+    if (std::abs(r) > std::max(0.005, 3.0 * a.sigma[i]) || cosine > -0.2 || is_turned_away)
+      continue;
+    const double w = points.Weight(cosine, i);
+    ++expected.num;
+    expected.w += w;
+    expected.nx += w * nx;
+    expected.ny += w * ny;
+    expected.nxnx += w * nx * nx;
+    expected.nxny += w * nx * ny;
+    expected.nyny += w * ny * ny;
+    expected.r += w * r;
+    expected.nxr += w * nx * r;
+    expected.nyr += w * ny * r;
+  }
+  const SideSums sums = SumSide(a, Side());
+  EXPECT_EQ(sums.num, expected.num);
+  EXPECT_GT(sums.num, 30);
+  ExpectNear(sums.w, expected.w);
+  ExpectNear(sums.nx, expected.nx);
+  ExpectNear(sums.ny, expected.ny);
+  ExpectNear(sums.nxnx, expected.nxnx);
+  ExpectNear(sums.nxny, expected.nxny);
+  ExpectNear(sums.nyny, expected.nyny);
+  ExpectNear(sums.r, expected.r);
+  ExpectNear(sums.nxr, expected.nxr);
+  ExpectNear(sums.nyr, expected.nyr);
+}
+
+TEST(FitSums, OfADiscAreThoseOfItsPoints) {
+  const RandomPoints points;
+  const FitArrays& a = points.arrays;
+  DiscSums expected;
+  for (size_t i = 0; i < kNum; ++i) {
+    if ((a.surfaces[i] & SurfaceBit(2, 1)) == 0) continue;
+    if (std::hypot(a.p[0][i] - 0.01, a.p[1][i] + 0.02) > 0.05) continue;
+    const double w = points.Weight(a.ray[2][i], i);
+    ++expected.num;
+    expected.w += w;
+    expected.wz += w * (a.p[2][i] - 0.03);
+  }
+  const DiscSums sums = SumDisc(a, {0.01f, -0.02f, 0.05f, 0.03f});
+  EXPECT_EQ(sums.num, expected.num);
+  EXPECT_GT(sums.num, 30);
+  ExpectNear(sums.w, expected.w);
+  ExpectNear(sums.wz, expected.wz);
+}
+
+TEST(FitSums, AreTheSameWithEveryInstructionSet) {
+  const RandomPoints points;
+  std::optional<std::vector<double>> first;
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().DeInit();
+    const FaceSums face = SumFace(points.arrays, FaceAcross(1));
+    const StripAreas strips = SumStrips(points.arrays, Strips());
+    const SideSums side = SumSide(points.arrays, Side());
+    const DiscSums disc = SumDisc(points.arrays, {0.01f, -0.02f, 0.05f, 0.03f});
+    const std::vector<double> sums = {
+        face.w,        face.wx, face.wl,  face.wll, face.wlx,  strips.reference,
+        strips.beyond, side.w,  side.nx,  side.ny,  side.nxnx, side.nxny,
+        side.nyny,     side.r,  side.nxr, side.nyr, disc.w,    disc.wz};
+    if (!first) first = sums;
+    EXPECT_EQ(sums, *first) << hwy::TargetName(target);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+}
+
+}  // namespace
+}  // namespace declutter
