@@ -40,11 +40,12 @@ class SideCells {
     uint32_t cell = 0;       // of its component
   };
   Slot* FindSlot(uint64_t place, int32_t component);
+  void Use(Slot* slot, const Slot& value);
   void Grow();
 
   ReusedList<std::vector<SideCell>> cells_;
   std::vector<Slot> slots_ = std::vector<Slot>(4096);  // a power of two
-  size_t num_used_ = 0;
+  std::vector<uint32_t> used_;                         // slots
 };
 
 }  // namespace declutter
