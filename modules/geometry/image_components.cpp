@@ -118,15 +118,4 @@ ComponentRuns FindComponents(int width, int height, const std::vector<uint8_t>& 
   return components;
 }
 
-ImageComponents LabelComponents(int width, int height, const std::vector<uint8_t>& mask,
-                                const std::vector<float>& values, float max_step) {
-  ComponentRuns found = FindComponents(width, height, mask, values, max_step);
-  ImageComponents components{std::vector<int32_t>(mask.size(), -1), std::move(found.num_pixels)};
-  for (const ComponentRun& run : found.runs) {
-    std::fill(components.label.begin() + static_cast<std::ptrdiff_t>(run.begin),
-              components.label.begin() + static_cast<std::ptrdiff_t>(run.end), run.component);
-  }
-  return components;
-}
-
 }  // namespace declutter

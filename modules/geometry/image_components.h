@@ -26,19 +26,11 @@ struct ComponentRuns {
   std::vector<uint8_t> joined, edges;
 };
 
-// The same, pixel by pixel.
-struct ImageComponents {
-  std::vector<int32_t> label;       // 0 .. num_pixels.size() - 1; -1 where not marked
-  std::vector<int32_t> num_pixels;  // per component
-};
-
 // Joins marked pixels (1, the others 0) that touch (8 neighbours) and whose values differ by at
 // most max_step. mask and values are row-major, width * height long. `recycled` gives its memory to
 // the result.
 ComponentRuns FindComponents(int width, int height, const std::vector<uint8_t>& mask,
                              const std::vector<float>& values, float max_step,
                              ComponentRuns recycled = {});
-ImageComponents LabelComponents(int width, int height, const std::vector<uint8_t>& mask,
-                                const std::vector<float>& values, float max_step);
 
 }  // namespace declutter

@@ -11,13 +11,22 @@ namespace {
 
 using ::testing::ElementsAre;
 
+// The component of each pixel, -1 where not marked.
+std::vector<int32_t> LabelsOf(const ComponentRuns& components, size_t num_pixels) {
+  std::vector<int32_t> labels(num_pixels, -1);
+  for (const ComponentRun& run : components.runs) {
+    for (size_t p = run.begin; p < run.end; ++p) labels[p] = run.component;
+  }
+  return labels;
+}
+
 TEST(ImageComponentsTest, JoinsPixelsThatTouchAtACorner) {
   const std::vector<uint8_t> mask = {1, 0, 0, 1,  //
                                      0, 1, 0, 1,  //
                                      0, 0, 0, 0,  //
                                      1, 0, 0, 0};
-  const ImageComponents components = LabelComponents(4, 4, mask, std::vector<float>(16), 0);
-  EXPECT_THAT(components.label,
+  const ComponentRuns components = FindComponents(4, 4, mask, std::vector<float>(16), 0);
+  EXPECT_THAT(LabelsOf(components, 16),
               ElementsAre(0, -1, -1, 1, -1, 0, -1, 1, -1, -1, -1, -1, 2, -1, -1, -1));
   EXPECT_THAT(components.num_pixels, ElementsAre(2, 2, 1));
 }
@@ -26,13 +35,13 @@ TEST(ImageComponentsTest, ArmsThatMeetBelowAreOneComponent) {
   const std::vector<uint8_t> mask = {1, 0, 1, 0, 1,  //
                                      1, 0, 1, 0, 1,  //
                                      1, 1, 1, 1, 1};
-  const ImageComponents components = LabelComponents(5, 3, mask, std::vector<float>(15), 0);
+  const ComponentRuns components = FindComponents(5, 3, mask, std::vector<float>(15), 0);
   EXPECT_THAT(components.num_pixels, ElementsAre(11));
 }
 
 TEST(ImageComponentsTest, AStepInTheValuesSeparates) {
   const std::vector<uint8_t> mask = {1, 1, 1, 1};
-  EXPECT_THAT(LabelComponents(4, 1, mask, {1.0f, 1.1f, 1.3f, 1.35f}, 0.15f).label,
+  EXPECT_THAT(LabelsOf(FindComponents(4, 1, mask, {1.0f, 1.1f, 1.3f, 1.35f}, 0.15f), 4),
               ElementsAre(0, 0, 1, 1));
 }
 
@@ -70,13 +79,13 @@ TEST(ImageComponentsTest, AreThoseOfAFloodFill) {
       }
       ++num;
     }
-    EXPECT_EQ(LabelComponents(kWidth, kHeight, mask, values, 1).label, expected);
+    EXPECT_EQ(LabelsOf(FindComponents(kWidth, kHeight, mask, values, 1), mask.size()), expected);
   }
 }
 
 TEST(ImageComponentsTest, AnEmptyMaskHasNone) {
   const std::vector<uint8_t> mask(6);
-  EXPECT_THAT(LabelComponents(3, 2, mask, std::vector<float>(6), 1).num_pixels, ElementsAre());
+  EXPECT_THAT(FindComponents(3, 2, mask, std::vector<float>(6), 1).num_pixels, ElementsAre());
 }
 
 }  // namespace
