@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "modules/hough_segmenter/edge_direction.h"
 #include "modules/hough_segmenter/joining.h"
 #include "modules/hough_segmenter/rectangle.h"
 #include "modules/hough_segmenter/solid_completion.h"
@@ -34,7 +35,9 @@ std::vector<Hypothesis> CompleteBoxes(const HoughSegmenterConfig& config,
         has_depth[i] = 1;
       }
     }
-    std::vector<Eigen::Vector2f> axes = {MinimumAreaAxis(patch)};
+    // Where something in front cuts a face off, the smallest rectangle around the rest lies askew.
+    const auto direction = EdgeDirection(patch.free_edge);
+    std::vector<Eigen::Vector2f> axes = {direction ? *direction : MinimumAreaAxis(patch)};
     for (const Face* face : attached) axes.push_back(face->model.tangent());
     for (const Eigen::Vector2f& axis : axes) {
       Rectangle r = Around(patch, axis);

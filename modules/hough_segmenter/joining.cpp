@@ -70,6 +70,8 @@ std::vector<TopPatch> WithJoinedPatches(const std::vector<TopPatch>& tops, float
       }
       TopPatch joined = tops[i];
       joined.points.insert(joined.points.end(), tops[j].points.begin(), tops[j].points.end());
+      joined.free_edge.insert(joined.free_edge.end(), tops[j].free_edge.begin(),
+                              tops[j].free_edge.end());
       joined.hull.insert(joined.hull.end(), tops[j].hull.begin(), tops[j].hull.end());
       all.push_back(std::move(joined));
     }
