@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "modules/hough_segmenter/edge_direction.h"
+#include "modules/geometry/edge_direction.h"
 #include "modules/hough_segmenter/joining.h"
 #include "modules/hough_segmenter/rectangle.h"
 #include "modules/hough_segmenter/solid_completion.h"

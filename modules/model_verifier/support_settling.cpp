@@ -82,6 +82,10 @@ std::vector<Floor> FloorsBelow(const std::vector<ObjectModel>& objects, size_t u
 
 }  // namespace
 
+Solid ExtendedToSupport(const Solid& solid, const Plane& support) {
+  return Extended(solid, Bottom(solid, support), 0);
+}
+
 void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects) {
   const Plane& support = observation.support;
   std::stable_sort(objects->begin(), objects->end(),

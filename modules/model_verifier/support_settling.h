@@ -12,4 +12,7 @@ namespace declutter {
 // height of their tops; supported_by counts from 1 in that order.
 void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects);
 
+// A solid lengthened along its z axis down to the support plane.
+Solid ExtendedToSupport(const Solid& solid, const Plane& support);
+
 }  // namespace declutter

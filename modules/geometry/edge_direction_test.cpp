@@ -1,4 +1,4 @@
-#include "modules/hough_segmenter/edge_direction.h"
+#include "modules/geometry/edge_direction.h"
 
 #include <gtest/gtest.h>
 
