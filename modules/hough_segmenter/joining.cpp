@@ -9,7 +9,7 @@
 namespace declutter {
 namespace {
 
-constexpr float kSameHeight = 0.008f;  // [m] between the parts of one top face
+constexpr float kSameHeight = 0.005f;  // [m] between the parts of one top face
 
 // Faces on one line with a gap between them, as an occluder in front leaves them, as one.
 std::optional<Face> Join(const Face& a, const Face& b, float max_extent) {
@@ -69,6 +69,9 @@ std::vector<TopPatch> WithJoinedPatches(const std::vector<TopPatch>& tops, float
         continue;
       }
       TopPatch joined = tops[i];
+      const auto num_i = static_cast<float>(tops[i].points.size());
+      const auto num_j = static_cast<float>(tops[j].points.size());
+      joined.height = (num_i * tops[i].height + num_j * tops[j].height) / (num_i + num_j);
       joined.points.insert(joined.points.end(), tops[j].points.begin(), tops[j].points.end());
       joined.free_edge.insert(joined.free_edge.end(), tops[j].free_edge.begin(),
                               tops[j].free_edge.end());
