@@ -172,10 +172,12 @@ TEST(ModelVerifier, KnowsACylinderBetterTheMoreOfItsSideIsSeen) {
   const RenderedScene hidden = RenderText(
       can + "object { box { size_x_m: 0.15 size_y_m: 0.05 size_z_m: 0.1 } x_m: -0.07 y_m: 0.6 }");
   const ObjectList seen = Verify(alone, {Proposal(alone.objects[0].solid)});
-  const ObjectList half_seen = Verify(hidden, {Proposal(hidden.objects[0].solid)});
+  const ObjectList half_seen =
+      Verify(hidden, {Proposal(hidden.objects[0].solid), Proposal(hidden.objects[1].solid)});
   ASSERT_THAT(seen.objects, SizeIs(1));
-  ASSERT_THAT(half_seen.objects, SizeIs(1));
-  EXPECT_LT(seen.objects[0].covariance(3, 3), half_seen.objects[0].covariance(3, 3));
+  ASSERT_THAT(half_seen.objects, SizeIs(2));  // in the order of their tops
+  EXPECT_EQ(half_seen.objects[1].solid.shape, Shape::kCylinder);
+  EXPECT_LT(seen.objects[0].covariance(3, 3), half_seen.objects[1].covariance(3, 3));
   EXPECT_EQ(seen.objects[0].covariance(3, 4), seen.objects[0].covariance(3, 3));
 }
 

@@ -82,6 +82,10 @@ void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper, doub
 
 }  // namespace
 
+Solid ExtendedToSupport(const Solid& solid, const Plane& support) {
+  return Extended(solid, Bottom(solid, support), 0);
+}
+
 void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects,
                       RayEvidence* buffer) {
   const Plane& support = observation.support;

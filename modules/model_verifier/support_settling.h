@@ -13,4 +13,7 @@ namespace declutter {
 void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects,
                       RayEvidence* buffer);
 
+// A solid lengthened along its z axis down to the support plane.
+Solid ExtendedToSupport(const Solid& solid, const Plane& support);
+
 }  // namespace declutter
