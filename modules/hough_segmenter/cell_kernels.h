@@ -44,10 +44,6 @@ void Supports(const CellView& cells, const CircleShape* circles, size_t num, flo
 size_t CopyMarked(const float* marks, size_t num, size_t num_fields, const float* from,
                   size_t from_stride, float* to, size_t to_stride);
 
-struct Range {
-  float low = 0;
-  float high = 0;
-};
 // Of num > 0 values, and reads no others.
 Range RangeOf(const float* values, size_t num);
 

@@ -242,6 +242,26 @@ TEST_P(CellKernels, PositionsDistancesAndAngles) {
   expect(angles, 3e-5f);
 }
 
+TEST_P(CellKernels, RangeOfPositionsAlsoOfFewPoints) {
+  for (const size_t num : {Cells::kNum, size_t{3}, size_t{1}}) {
+    Values positions;
+    for (size_t i = 0; i < num; ++i) positions.push_back(0.6f * cells_.x[i] - 0.8f * cells_.y[i]);
+    const Range range = RangeAlong(cells_.x.data(), cells_.y.data(), num, 0.6f, -0.8f);
+    EXPECT_NEAR(range.low, *std::min_element(positions.begin(), positions.end()), 1e-6f);
+    EXPECT_NEAR(range.high, *std::max_element(positions.begin(), positions.end()), 1e-6f);
+  }
+}
+
+TEST_P(CellKernels, CountPointsInsideACircle) {
+  size_t num_inside = 0;
+  for (size_t i = 0; i < Cells::kNum; ++i) {
+    num_inside += std::hypot(cells_.x[i] - 0.1f, cells_.y[i] - 0.7f) < kCircle.r;
+  }
+  ASSERT_GT(num_inside, 0u);
+  ASSERT_LT(num_inside, Cells::kNum);
+  EXPECT_EQ(CountInside(cells_.x.data(), cells_.y.data(), Cells::kNum, kCircle), num_inside);
+}
+
 TEST_P(CellKernels, CountPointsOnAndInsideARing) {
   int num_on = 0, num_inside = 0;
   for (size_t i = 0; i < Cells::kNum; ++i) {

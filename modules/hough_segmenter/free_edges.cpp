@@ -66,6 +66,13 @@ void AddFreeEdges(const Tabletop& tabletop, const Eigen::Isometry3d& X_TC,
   for (const size_t pixel : pixels) {
     const int32_t label = labels[pixel];
     if (label < 0) continue;
+    // Most pixels are amid their face.
+    const auto width = static_cast<size_t>(columns);
+    if (pixel > width && pixel + width < labels.size() && labels[pixel - 1] == label &&
+        labels[pixel + 1] == label && labels[pixel - width] == label &&
+        labels[pixel + width] == label) {
+      continue;
+    }
     while (static_cast<int>(pixel) >= (row + 1) * columns) ++row;
     const int column = static_cast<int>(pixel) - row * columns;
     if (row == 0 || column == 0 || row + 1 == rows || column + 1 == columns) continue;

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <string>
-
-#include "modules/hough_segmenter/lying_cylinders.h"
-#include "modules/hough_segmenter/solid_completion.h"
 
 namespace declutter {
 namespace {
@@ -43,16 +41,6 @@ bool AreAlike(const Hypothesis& a, const Hypothesis& b) {
          (a.solid.size - size).cwiseAbs().maxCoeff() < kMaxGrowth;
 }
 
-// Keeps the first of hypotheses that are alike.
-void DropAlike(std::vector<Hypothesis>* hypotheses) {
-  std::vector<Hypothesis> kept;
-  for (const Hypothesis& hypothesis : *hypotheses) {
-    const auto is_alike = [&](const Hypothesis& other) { return AreAlike(hypothesis, other); };
-    if (std::none_of(kept.begin(), kept.end(), is_alike)) kept.push_back(hypothesis);
-  }
-  *hypotheses = std::move(kept);
-}
-
 // The tabletop at the pixels that have features: of many points, the message of the features may
 // leave out more than that of the tabletop.
 Tabletop AtFeatures(Tabletop tabletop, const FeatureCloud& features) {
@@ -63,20 +51,15 @@ Tabletop AtFeatures(Tabletop tabletop, const FeatureCloud& features) {
 }  // namespace
 
 HoughSegmenter::HoughSegmenter(const HoughSegmenterConfig& config, SideDetector detect)
-    : config_(config),
-      detect_(detect),
-      side_search_(config),
-      section_search_(SectionConfig(config)),
-      completion_(config) {}
+    : config_(config), detect_(detect), side_search_(config), completion_(config), lying_(config) {}
 
 void HoughSegmenter::FindSides(const FeatureCloud& features, int num_pixels) {
-  const std::vector<std::vector<SideCell>>& cells =
+  const ReusedList<std::vector<SideCell>>& cells =
       cells_.Gather(points_, features.num_components, static_cast<float>(config_.cell_side_m()),
                     static_cast<float>(config_.cell_height_m()), num_pixels);
   size_t num_cells = 0;
   for (const auto& component : cells) num_cells += component.size();
-  detections_.faces.clear();
-  detections_.arcs.clear();
+  detections_.Clear();
   int64_t num_tests_left = config_.max_cell_tests();
   int num_cut_short = 0;
   for (size_t c = 0; c < cells.size(); ++c) {
@@ -100,17 +83,31 @@ void HoughSegmenter::FindSides(const FeatureCloud& features, int num_pixels) {
   }
 }
 
-void HoughSegmenter::KeepBest(std::vector<Hypothesis>* hypotheses) {
-  std::stable_sort(
-      hypotheses->begin(), hypotheses->end(),
-      [](const Hypothesis& a, const Hypothesis& b) { return a.num_inliers > b.num_inliers; });
-  DropAlike(hypotheses);
+std::vector<Hypothesis> HoughSegmenter::BestProposals() {
+  ranking_.resize(proposals_.size());
+  std::iota(ranking_.begin(), ranking_.end(), size_t{0});
+  std::sort(ranking_.begin(), ranking_.end(), [this](size_t i, size_t j) {
+    const int32_t a = proposals_[i].num_inliers, b = proposals_[j].num_inliers;
+    return a != b ? a > b : i < j;
+  });
+  // The first of those alike.
+  auto end = ranking_.begin();
+  for (const size_t i : ranking_) {
+    const auto is_alike = [&](size_t j) { return AreAlike(proposals_[i], proposals_[j]); };
+    if (std::none_of(ranking_.begin(), end, is_alike)) *end++ = i;
+  }
+  ranking_.erase(end, ranking_.end());
   const auto max_num = static_cast<size_t>(config_.max_hypotheses());
-  if (hypotheses->size() <= max_num) return;
-  if (!shortfall_.empty()) shortfall_ += "; ";
-  shortfall_ += std::to_string(hypotheses->size() - max_num) +
-                " solids were left out (max_hypotheses " + std::to_string(max_num) + ")";
-  hypotheses->resize(max_num);
+  if (ranking_.size() > max_num) {
+    if (!shortfall_.empty()) shortfall_ += "; ";
+    shortfall_ += std::to_string(ranking_.size() - max_num) +
+                  " solids were left out (max_hypotheses " + std::to_string(max_num) + ")";
+    ranking_.resize(max_num);
+  }
+  std::vector<Hypothesis> best;
+  best.reserve(ranking_.size());
+  for (const size_t i : ranking_) best.push_back(proposals_[i]);
+  return best;
 }
 
 HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCloud& features) {
@@ -121,6 +118,7 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCl
   HypothesisList list;
   list.header = features.header;
   list.mode = features.mode;
+  list.planes.reserve(tabletop.planes.size());
   for (const SupportPlane& support : tabletop.planes) list.planes.push_back(support.plane);
   if (list.planes.empty() || features.points.empty()) return list;
 
@@ -133,16 +131,15 @@ HypothesisList HoughSegmenter::Segment(const Tabletop& tabletop, const FeatureCl
   sides_.Assign(points_, [](const TablePoint& point) { return point.is_side(); });
   completion_.MeasureExtents(sides_, &detections_);
 
-  completion_.CompleteBoxes(detections_.faces, tops, &list.hypotheses);
-  completion_.CompleteCylinders(detections_.arcs, tops, &list.hypotheses);
-  completion_.AddSidesBelowTops(sides_, &list.hypotheses);
+  proposals_.clear();
+  completion_.CompleteBoxes(detections_.faces, tops, &proposals_);
+  completion_.CompleteCylinders(detections_.arcs, tops, &proposals_);
+  completion_.AddSidesBelowTops(sides_, &proposals_);
   if (list.mode == FeatureMode::kDefault) {
     slants_.Assign(points_, [](const TablePoint& point) { return point.is_slanted(); });
-    const std::vector<Hypothesis> lying =
-        FindLyingCylinders(config_, points_, slants_, tops, &cells_, &section_search_);
-    list.hypotheses.insert(list.hypotheses.end(), lying.begin(), lying.end());
+    lying_.Find(points_, slants_, tops, &cells_, &proposals_);
   }
-  KeepBest(&list.hypotheses);
+  list.hypotheses = BestProposals();
   const Eigen::Isometry3d X_CT = X_TC.inverse();
   for (Hypothesis& hypothesis : list.hypotheses) {
     hypothesis.solid.X_CO = X_CT * hypothesis.solid.X_CO;

@@ -7,6 +7,7 @@
 #include "modules/geometry/solid.h"
 #include "modules/geometry/tabletop.h"
 #include "modules/hough_segmenter/hough_segmenter.pb.h"
+#include "modules/hough_segmenter/lying_cylinders.h"
 #include "modules/hough_segmenter/point_grid.h"
 #include "modules/hough_segmenter/side_voting.h"
 #include "modules/hough_segmenter/solid_completion.h"
@@ -31,8 +32,8 @@ class HoughSegmenter {
  private:
   // Sets detections_ to the faces and arcs among points_, each of which stands for num_pixels.
   void FindSides(const FeatureCloud& features, int num_pixels);
-  // Sorts hypotheses in T by their points, without those alike, and keeps max_hypotheses of them.
-  void KeepBest(std::vector<Hypothesis>* hypotheses);
+  // At most max_hypotheses of proposals_, sorted by their points, without those alike.
+  std::vector<Hypothesis> BestProposals();
 
   HoughSegmenterConfig config_;
   SideDetector detect_;
@@ -41,12 +42,14 @@ class HoughSegmenter {
   std::vector<TablePoint> points_;
   SideCells cells_;
   SideSearch side_search_;
-  SideSearch section_search_;
   SideDetections detections_;
   TopPatchFinder tops_;
   PointGrid sides_;
   PointGrid slants_;
   SolidCompletion completion_;
+  LyingCylinders lying_;
+  std::vector<Hypothesis> proposals_;  // in T
+  std::vector<size_t> ranking_;        // of proposals_
 };
 
 }  // namespace declutter

@@ -48,8 +48,9 @@ std::vector<Hypothesis> Find(const std::vector<TablePoint>& points) {
   PointGrid slants;
   slants.Assign(points, [](const TablePoint& point) { return point.is_slanted(); });
   SideCells cells;
-  SideSearch search(SectionConfig(HoughSegmenterConfig()));
-  return FindLyingCylinders(HoughSegmenterConfig(), points, slants, tops, &cells, &search);
+  std::vector<Hypothesis> hypotheses;
+  LyingCylinders(HoughSegmenterConfig()).Find(points, slants, tops, &cells, &hypotheses);
+  return hypotheses;
 }
 
 // Whether one of them has this length, with the radius and height of AddLyingCylinder.

@@ -1,9 +1,7 @@
 #include "modules/hough_segmenter/model_fits.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace declutter {
 namespace {
@@ -59,15 +57,10 @@ void FitToInliers(const CellArrays& inliers, CircleModel* circle) {
 
 void SetExtent(const CellArrays& inliers, LineModel* line) {
   const Eigen::Vector2f t = line->tangent();
-  line->s_min = std::numeric_limits<float>::max();
-  line->s_max = std::numeric_limits<float>::lowest();
-  const float* x = inliers.field(Field::kX);
-  const float* y = inliers.field(Field::kY);
-  for (size_t i = 0; i < inliers.size(); ++i) {
-    const float s = t.x() * x[i] + t.y() * y[i];
-    line->s_min = std::min(line->s_min, s);
-    line->s_max = std::max(line->s_max, s);
-  }
+  const Range range =
+      RangeAlong(inliers.field(Field::kX), inliers.field(Field::kY), inliers.size(), t.x(), t.y());
+  line->s_min = range.low;
+  line->s_max = range.high;
   SetHeights(inliers, line);
 }
 

@@ -57,6 +57,20 @@ CircleSums SumCircle(const float* x, const float* y, const float* weights, size_
   return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]};
 }
 
+Range RangeAlong(const float* x, const float* y, size_t num, float tx, float ty) {
+  const Floats f;
+  const auto first = hn::Set(f, tx * x[0] + ty * y[0]);
+  auto low = first, high = first;
+  for (size_t i = 0; i < num; i += kLanes) {
+    const auto along = hn::Add(hn::Mul(hn::Set(f, tx), hn::LoadU(f, x + i)),
+                               hn::Mul(hn::Set(f, ty), hn::LoadU(f, y + i)));
+    const auto s = hn::IfThenElse(LanesBelow(num, i), along, first);
+    low = hn::Min(low, s);
+    high = hn::Max(high, s);
+  }
+  return {hn::GetLane(hn::MinOfLanes(f, low)), hn::GetLane(hn::MaxOfLanes(f, high))};
+}
+
 void PositionsAlong(const float* x, const float* y, size_t num, float tx, float ty,
                     float* positions) {
   const Floats f;
@@ -150,6 +164,7 @@ namespace {
 
 HWY_EXPORT(SumPoints);
 HWY_EXPORT(SumCircle);
+HWY_EXPORT(RangeAlong);
 HWY_EXPORT(PositionsAlong);
 HWY_EXPORT(Distances);
 HWY_EXPORT(Angles);
@@ -166,6 +181,10 @@ PointSums SumPoints(const float* x, const float* y, const float* weights, size_t
 CircleSums SumCircle(const float* x, const float* y, const float* weights, size_t num,
                      const CircleShape& circle) {
   return HWY_DYNAMIC_DISPATCH(SumCircle)(x, y, weights, num, circle);
+}
+
+Range RangeAlong(const float* x, const float* y, size_t num, float tx, float ty) {
+  return HWY_DYNAMIC_DISPATCH(RangeAlong)(x, y, num, tx, ty);
 }
 
 void PositionsAlong(const float* x, const float* y, size_t num, float tx, float ty,

@@ -33,6 +33,14 @@ struct CircleSums {
 CircleSums SumCircle(const float* x, const float* y, const float* weights, size_t num,
                      const CircleShape& circle);
 
+struct Range {
+  float low = 0;
+  float high = 0;
+};
+
+// Of the positions along the direction (tx, ty) of num > 0 points.
+Range RangeAlong(const float* x, const float* y, size_t num, float tx, float ty);
+
 // Position along the direction (tx, ty) of each point.
 void PositionsAlong(const float* x, const float* y, size_t num, float tx, float ty,
                     float* positions);

@@ -15,17 +15,25 @@ HWY_BEFORE_NAMESPACE();
 namespace declutter {
 namespace HWY_NAMESPACE {
 
-// Value x is in bin (x - low) * bins_per_unit, rounded down.
+constexpr size_t kNumBins = 256;
+
+// Value x is in bin (x - low) * bins_per_unit, rounded down. Neighbours are counted apart, for many
+// may be in one bin, and a count waits for the last one.
 void CountInBins(const float* values, size_t num, float low, float bins_per_unit,
                  uint32_t* num_in_bin) {
+  constexpr size_t kNumParts = 4;
   const Floats f;
   const hn::RebindToSigned<Floats> i32;
   HWY_ALIGN int32_t bins[kLanes];
+  uint32_t parts[kNumParts][kNumBins] = {};
   for (size_t i = 0; i < num; i += kLanes) {
-    const auto steps =
-        hn::Mul(hn::Sub(hn::LoadU(f, values + i), hn::Set(f, low)), hn::Set(f, bins_per_unit));
+    const auto steps = hn::Mul(hn::Sub(hn::LoadU(f, values + i), hn::Set(f, low)),
+                               hn::Set(f, bins_per_unit));
     hn::Store(hn::ConvertTo(i32, steps), i32, bins);
-    for (size_t k = 0; k < HWY_MIN(kLanes, num - i); ++k) ++num_in_bin[bins[k]];
+    for (size_t k = 0; k < HWY_MIN(kLanes, num - i); ++k) ++parts[k % kNumParts][bins[k]];
+  }
+  for (size_t bin = 0; bin < kNumBins; ++bin) {
+    num_in_bin[bin] = parts[0][bin] + parts[1][bin] + parts[2][bin] + parts[3][bin];
   }
 }
 
@@ -65,7 +73,7 @@ HWY_EXPORT(CopyBin);
 
 // A histogram tells which few values come into question, so that hardly a branch depends on data.
 Range Quantiles(std::vector<float>* values, double low_fraction, double high_fraction) {
-  constexpr size_t kNumBins = 256;
+  constexpr size_t kNumBins = HWY_NAMESPACE::kNumBins;
   const size_t num = values->size();
   const Range range = RangeOf(values->data(), num);
   if (!(range.high > range.low)) return range;

@@ -62,18 +62,24 @@ SideCells::Slot* SideCells::FindSlot(uint64_t place, int32_t component) {
 void SideCells::Grow() {
   const std::vector<Slot> before = std::move(slots_);
   slots_.assign(2 * before.size(), Slot());
+  used_.clear();
   for (const Slot& slot : before) {
-    if (slot.component >= 0) *FindSlot(slot.place, slot.component) = slot;
+    if (slot.component >= 0) Use(FindSlot(slot.place, slot.component), slot);
   }
 }
 
-const std::vector<std::vector<SideCell>>& SideCells::Gather(const std::vector<TablePoint>& points,
-                                                            int num_components, float side_m,
-                                                            float height_m, int num_pixels) {
-  cells_.resize(static_cast<size_t>(num_components));
-  for (auto& component : cells_) component.clear();
-  std::fill(slots_.begin(), slots_.end(), Slot());
-  num_used_ = 0;
+void SideCells::Use(Slot* slot, const Slot& value) {
+  *slot = value;
+  used_.push_back(static_cast<uint32_t>(slot - slots_.data()));
+}
+
+const ReusedList<std::vector<SideCell>>& SideCells::Gather(const std::vector<TablePoint>& points,
+                                                           int num_components, float side_m,
+                                                           float height_m, int num_pixels) {
+  cells_.Clear();
+  for (int c = 0; c < num_components; ++c) cells_.Add().clear();
+  for (const uint32_t slot : used_) slots_[slot] = Slot();
+  used_.clear();
   const CellPlace place_of(side_m, height_m);
   for (const TablePoint& point : points) {
     if (!point.is_side()) continue;
@@ -81,10 +87,10 @@ const std::vector<std::vector<SideCell>>& SideCells::Gather(const std::vector<Ta
     Slot* slot = FindSlot(place, point.component);
     auto& component = cells_[static_cast<size_t>(point.component)];
     if (slot->component < 0) {
-      *slot = {place, point.component, static_cast<uint32_t>(component.size())};
+      Use(slot, {place, point.component, static_cast<uint32_t>(component.size())});
       component.emplace_back();
       Accumulate(point, &component.back());
-      if (2 * ++num_used_ > slots_.size()) Grow();
+      if (2 * used_.size() > slots_.size()) Grow();
     } else {
       Accumulate(point, &component[slot->cell]);
     }

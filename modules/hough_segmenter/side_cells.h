@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "modules/hough_segmenter/reused_list.h"
 #include "modules/hough_segmenter/table_points.h"
 
 namespace declutter {
@@ -27,9 +28,9 @@ class SideCells {
   // Cells of side_m x side_m x height_m of the side points of each component, in order of the
   // components; points whose normal is not nearly horizontal do not count, the others as the pixels
   // that each stands for. The result is valid until the next call.
-  const std::vector<std::vector<SideCell>>& Gather(const std::vector<TablePoint>& points,
-                                                   int num_components, float side_m, float height_m,
-                                                   int num_pixels = 1);
+  const ReusedList<std::vector<SideCell>>& Gather(const std::vector<TablePoint>& points,
+                                                  int num_components, float side_m, float height_m,
+                                                  int num_pixels = 1);
 
  private:
   // Of a hash table of all cells by component and place.
@@ -39,11 +40,12 @@ class SideCells {
     uint32_t cell = 0;       // of its component
   };
   Slot* FindSlot(uint64_t place, int32_t component);
+  void Use(Slot* slot, const Slot& value);
   void Grow();
 
-  std::vector<std::vector<SideCell>> cells_;
+  ReusedList<std::vector<SideCell>> cells_;
   std::vector<Slot> slots_ = std::vector<Slot>(4096);  // a power of two
-  size_t num_used_ = 0;
+  std::vector<uint32_t> used_;                         // slots
 };
 
 }  // namespace declutter

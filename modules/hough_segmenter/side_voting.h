@@ -23,6 +23,10 @@ struct SideDetections {
   std::vector<Face> faces;
   std::vector<Arc> arcs;
 
+  void Clear() {
+    faces.clear();
+    arcs.clear();
+  }
   void Add(const LineFit& fit, int component, int num_votes);
   void Add(const CircleFit& fit, int component, int num_votes);
 };

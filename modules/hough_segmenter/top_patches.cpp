@@ -15,6 +15,16 @@ namespace {
 constexpr int kRimPixels = 4;          // [px] of the image that normals are blurred over
 constexpr float kMaxRimStep = 0.003f;  // [m] in height between a rim and the face inside
 
+template <size_t kNum>
+std::array<Eigen::Vector2f, kNum> EveryDegree() {
+  std::array<Eigen::Vector2f, kNum> directions;
+  for (size_t degree = 0; degree < kNum; ++degree) {
+    const auto angle = static_cast<float>(static_cast<int>(degree) * M_PI / 180);
+    directions[degree] = {std::cos(angle), std::sin(angle)};
+  }
+  return directions;
+}
+
 // Sets outer to the points, at least one, that are not inside the octagon of those farthest in
 // eight directions: inner ones are no corners of the hull, and most are.
 void FindOuterPoints(const PlanarPoints& points, std::vector<Eigen::Vector2d>* outer) {
@@ -59,11 +69,10 @@ void FindOuterPoints(const PlanarPoints& points, std::vector<Eigen::Vector2d>* o
 }  // namespace
 
 Eigen::Vector2f MinimumAreaAxis(const TopPatch& patch) {
+  static const std::array<Eigen::Vector2f, 90> axes = EveryDegree<90>();
   Eigen::Vector2f best = Eigen::Vector2f::UnitX();
   float best_area = std::numeric_limits<float>::max();
-  for (int degree = 0; degree < 90; ++degree) {
-    const float angle = static_cast<float>(degree * M_PI / 180);
-    const Eigen::Vector2f axis(std::cos(angle), std::sin(angle));
+  for (const Eigen::Vector2f& axis : axes) {
     const Eigen::Vector2f other(-axis.y(), axis.x());
     Eigen::Vector2f low = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
     Eigen::Vector2f high = -low;
