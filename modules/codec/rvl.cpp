@@ -7,26 +7,33 @@ namespace declutter::codec {
 namespace {
 
 // Nibbles are packed into 32-bit words, the first one highest.
-constexpr int kWordBits = 32;
+constexpr uint32_t kWordBits = 32;
 constexpr size_t kWordBytes = 4;
 // One look into a table codes or decodes a chunk: up to three nibbles, nine bits of a value.
 constexpr int kChunkNibbles = 3;
 constexpr int kChunkValueBits = 3 * kChunkNibbles;
-constexpr int kChunkCodeBits = 4 * kChunkNibbles;
+constexpr uint32_t kChunkCodeBits = 4 * kChunkNibbles;
 constexpr uint32_t kChunkValues = 1u << kChunkValueBits;
 // More than the longest run and the largest difference need.
-constexpr int kMaxChunks = 3;
+constexpr int kMaxNibbles = 9;
 
 struct Code {
   uint16_t nibbles = 0;
   uint16_t num_bits = 0;
 };
 
+// The differences that a chunk holds as a whole, from its first nibble on.
 struct Chunk {
-  uint16_t value = 0;
-  uint8_t num_bits = 0;
-  bool more = false;  // the value goes on in the next chunk
+  std::array<int16_t, kChunkNibbles> differences{};  // 0 beyond num
+  uint8_t num = 0;
+  uint8_t num_bits = 0;  // of all of them
 };
+
+// Small differences of either sign become small numbers.
+constexpr uint32_t ToNumber(int32_t difference) {
+  return (static_cast<uint32_t>(difference) << 1) ^ static_cast<uint32_t>(difference >> 31);
+}
+constexpr uint32_t ToDifference(uint32_t number) { return (number >> 1) ^ (0u - (number & 1u)); }
 
 constexpr std::array<Code, kChunkValues> MakeCodes() {
   std::array<Code, kChunkValues> codes{};
@@ -44,19 +51,27 @@ constexpr std::array<Code, kChunkValues> MakeCodes() {
   return codes;
 }
 
+constexpr Chunk MakeChunk(uint32_t nibbles) {
+  Chunk chunk;
+  uint32_t number = 0;
+  int num_bits = 0;  // of the number so far
+  for (int i = 0; i < kChunkNibbles; ++i) {
+    const uint32_t nibble = (nibbles >> (4 * (kChunkNibbles - 1 - i))) & 15u;
+    number |= (nibble & 7u) << num_bits;
+    num_bits += 3;
+    if ((nibble & 8u) != 0) continue;
+    chunk.differences[chunk.num++] = static_cast<int16_t>(ToDifference(number));
+    chunk.num_bits = static_cast<uint8_t>(4 * (i + 1));
+    number = 0;
+    num_bits = 0;
+  }
+  return chunk;
+}
+
 constexpr std::array<Chunk, 1u << kChunkCodeBits> MakeChunks() {
   std::array<Chunk, 1u << kChunkCodeBits> chunks{};
   for (uint32_t nibbles = 0; nibbles < chunks.size(); ++nibbles) {
-    uint32_t value = 0;
-    int num = 0;
-    bool more = true;
-    while (more && num < kChunkNibbles) {
-      const uint32_t nibble = (nibbles >> (4 * (kChunkNibbles - 1 - num))) & 15u;
-      value |= (nibble & 7u) << (3 * num);
-      more = (nibble & 8u) != 0;
-      ++num;
-    }
-    chunks[nibbles] = {static_cast<uint16_t>(value), static_cast<uint8_t>(4 * num), more};
+    chunks[nibbles] = MakeChunk(nibbles);
   }
   return chunks;
 }
@@ -68,15 +83,25 @@ class NibbleWriter {
  public:
   explicit NibbleWriter(uint8_t* out) : begin_(out), next_(out) {}
 
-  void Put(uint32_t value) {
-    while (value >= kChunkValues) {
-      const uint32_t chunk = value & (kChunkValues - 1);
+  void Put(uint32_t number) {
+    while (number >= kChunkValues) {
+      const uint32_t chunk = number & (kChunkValues - 1);
       // All three nibbles say that more follow.
       const uint32_t nibbles = ((chunk & 7u) << 8) | ((chunk & 0x38u) << 1) | (chunk >> 6) | 0x888u;
       PutBits(nibbles, kChunkCodeBits);
-      value >>= kChunkValueBits;
+      number >>= kChunkValueBits;
     }
-    PutBits(kCodes[value].nibbles, kCodes[value].num_bits);
+    PutBits(kCodes[number].nibbles, kCodes[number].num_bits);
+  }
+
+  void PutTwo(uint32_t first, uint32_t second) {
+    if ((first | second) >= kChunkValues) {
+      Put(first);
+      Put(second);
+      return;
+    }
+    const Code a = kCodes[first], b = kCodes[second];
+    PutBits((uint32_t{a.nibbles} << b.num_bits) | b.nibbles, uint32_t{a.num_bits} + b.num_bits);
   }
 
   // Fills the last word with zeros; the number of bytes written.
@@ -86,20 +111,21 @@ class NibbleWriter {
   }
 
  private:
-  void PutBits(uint32_t bits, int num_bits) {
+  // Always writes a word, which the next one replaces until it is full: a branch that depends on
+  // the data takes longer.
+  void PutBits(uint32_t bits, uint32_t num_bits) {
     bits_ = (bits_ << num_bits) | bits;
     num_bits_ += num_bits;
-    if (num_bits_ < kWordBits) return;
-    num_bits_ -= kWordBits;
-    const uint32_t word = static_cast<uint32_t>(bits_ >> num_bits_);
+    const auto word = static_cast<uint32_t>(bits_ >> ((num_bits_ - kWordBits) % 64));
     std::memcpy(next_, &word, kWordBytes);
-    next_ += kWordBytes;
+    next_ += num_bits_ / kWordBits * kWordBytes;
+    num_bits_ %= kWordBits;
   }
 
   uint8_t* const begin_;
   uint8_t* next_;
-  uint64_t bits_ = 0;  // the lowest num_bits_ are not written yet
-  int num_bits_ = 0;   // below kWordBits
+  uint64_t bits_ = 0;      // the lowest num_bits_ are not written yet
+  uint32_t num_bits_ = 0;  // below kWordBits
 };
 
 // Reads zeros beyond the end and knows that it did.
@@ -108,17 +134,27 @@ class NibbleReader {
   NibbleReader(const uint8_t* data, size_t size) : next_(data), end_(data + size) {}
 
   uint32_t Get() {
-    uint32_t value = 0;
-    for (int i = 0; i < kMaxChunks; ++i) {
-      Refill();
-      const Chunk chunk = kChunks[bits_ >> (64 - kChunkCodeBits)];
-      bits_ <<= chunk.num_bits;
-      num_bits_ -= chunk.num_bits;
-      value |= static_cast<uint32_t>(chunk.value) << (i * kChunkValueBits);
-      if (!chunk.more) return value;
+    Refill();
+    uint32_t number = 0;
+    for (int i = 0; i < kMaxNibbles; ++i) {
+      if (i == kMaxNibbles - 1) Refill();
+      const auto nibble = static_cast<uint32_t>(bits_ >> 60);
+      Skip(4);
+      number |= (nibble & 7u) << (3 * i);
+      if ((nibble & 8u) == 0) return number;
     }
     overlong_ = true;
-    return value;
+    return number;
+  }
+
+  // The differences that come whole in the next chunk; none: Get() reads the next one.
+  const Chunk& Peek() {
+    Refill();
+    return kChunks[bits_ >> (64 - kChunkCodeBits)];
+  }
+  void Skip(uint32_t num_bits) {
+    bits_ <<= num_bits;
+    num_bits_ -= num_bits;
   }
 
   bool ok() const { return !overlong_ && num_bits_ >= num_missing_bits_; }
@@ -128,38 +164,84 @@ class NibbleReader {
   }
 
  private:
+  // To a word at least. The next word is always read, and taken where there is room: a branch that
+  // depends on the data takes longer.
   void Refill() {
-    if (num_bits_ >= kChunkCodeBits) return;
-    uint32_t word = 0;
-    if (next_ < end_) {
-      std::memcpy(&word, next_, kWordBytes);
-      next_ += kWordBytes;
-    } else {
-      num_missing_bits_ += kWordBits;
+    const uint64_t takes = num_bits_ < kWordBits;
+    if (next_ == end_) {
+      num_bits_ += takes * kWordBits;
+      num_missing_bits_ += takes * kWordBits;
+      return;
     }
-    bits_ |= static_cast<uint64_t>(word) << (kWordBits - num_bits_);
-    num_bits_ += kWordBits;
+    uint32_t word;
+    std::memcpy(&word, next_, kWordBytes);
+    bits_ |= (static_cast<uint64_t>(word) << ((kWordBits - num_bits_) % 64)) & (0u - takes);
+    num_bits_ += takes * kWordBits;
+    next_ += takes * kWordBytes;
   }
 
   const uint8_t* next_;
   const uint8_t* const end_;
   uint64_t bits_ = 0;  // the highest num_bits_ are not read yet, the others are zero
-  int64_t num_bits_ = 0;
-  int64_t num_missing_bits_ = 0;  // of those in bits_ and before, how many lie beyond the end
+  uint64_t num_bits_ = 0;
+  uint64_t num_missing_bits_ = 0;  // of those in bits_ and before, how many lie beyond the end
   bool overlong_ = false;
 };
 
-size_t EndOfRun(const std::vector<uint16_t>& counts, size_t begin, bool zero) {
-  size_t end = begin;
-  while (end < counts.size() && (counts[end] == 0) == zero) ++end;
-  return end;
+// Four counts at a time.
+size_t EndOfZeros(const std::vector<uint16_t>& counts, size_t begin) {
+  for (uint64_t four = 0; begin + 4 <= counts.size(); begin += 4) {
+    std::memcpy(&four, &counts[begin], sizeof four);
+    if (four != 0) break;
+  }
+  while (begin < counts.size() && counts[begin] == 0) ++begin;
+  return begin;
+}
+
+size_t EndOfNonzeros(const std::vector<uint16_t>& counts, size_t begin) {
+  constexpr uint64_t kOnes = 0x0001000100010001, kHighest = 0x8000800080008000;
+  for (uint64_t four = 0; begin + 4 <= counts.size(); begin += 4) {
+    std::memcpy(&four, &counts[begin], sizeof four);
+    // Only where one of them is 0 does the lowest such one borrow into its highest bit.
+    if (((four - kOnes) & ~four & kHighest) != 0) break;
+  }
+  while (begin < counts.size() && counts[begin] != 0) ++begin;
+  return begin;
+}
+
+// Reads num counts that are not 0; false when they leave the range of counts.
+bool ReadRun(size_t num, NibbleReader* reader, uint32_t* previous, uint16_t* counts) {
+  uint32_t count = *previous;
+  uint32_t bits = 0;  // of all counts, and of all counts - 1: 32 where one is 0
+  const auto add = [&](uint32_t difference, size_t i) {
+    count += difference;
+    bits |= count | (count - 1);
+    counts[i] = static_cast<uint16_t>(count);
+  };
+  size_t i = 0;
+  while (i + kChunkNibbles <= num) {
+    const Chunk& chunk = reader->Peek();
+    if (chunk.num == 0) {
+      add(ToDifference(reader->Get()), i++);
+      continue;
+    }
+    reader->Skip(chunk.num_bits);
+    // Also those beyond chunk.num, which change nothing and are written again.
+    for (size_t k = 0; k < kChunkNibbles; ++k) {
+      add(static_cast<uint32_t>(int32_t{chunk.differences[k]}), i + k);
+    }
+    i += chunk.num;
+  }
+  while (i < num) add(ToDifference(reader->Get()), i++);
+  *previous = count;
+  return bits < 1u << 16;
 }
 
 }  // namespace
 
 size_t MaxRvlBytes(size_t num_counts) {
   // Six nibbles for a difference, which also covers a pair of lengths for every two counts; two
-  // lengths and a word more for the ends.
+  // lengths and two words more for the ends, one of them written ahead.
   return 3 * num_counts + 6 * kWordBytes;
 }
 
@@ -167,16 +249,17 @@ size_t EncodeRvl(const std::vector<uint16_t>& counts, uint8_t* out) {
   NibbleWriter writer(out);
   int32_t previous = 0;
   for (size_t i = 0; i < counts.size();) {
-    const size_t begin = EndOfRun(counts, i, true);
-    const size_t end = EndOfRun(counts, begin, false);
+    const size_t begin = EndOfZeros(counts, i);
+    const size_t end = EndOfNonzeros(counts, begin);
     writer.Put(static_cast<uint32_t>(begin - i));
     writer.Put(static_cast<uint32_t>(end - begin));
-    for (i = begin; i < end; ++i) {
-      const int32_t difference = counts[i] - previous;
-      previous = counts[i];
-      // Small differences of either sign become small numbers.
-      writer.Put((static_cast<uint32_t>(difference) << 1) ^
-                 static_cast<uint32_t>(difference >> 31));
+    for (i = begin; i + 1 < end; i += 2) {
+      writer.PutTwo(ToNumber(counts[i] - previous), ToNumber(counts[i + 1] - counts[i]));
+      previous = counts[i + 1];
+    }
+    if (i < end) {
+      writer.Put(ToNumber(counts[i] - previous));
+      previous = counts[i++];
     }
   }
   return writer.Finish();
@@ -188,20 +271,14 @@ std::optional<std::vector<uint16_t>> DecodeRvl(const uint8_t* data, size_t size,
   std::vector<uint16_t> counts(num_counts);
   NibbleReader reader(data, size);
   uint32_t previous = 0;
-  bool in_range = true;
   for (size_t i = 0; i < num_counts;) {
     const size_t num_zero = reader.Get();
     const size_t num_nonzero = reader.Get();
     const bool progress = num_zero + num_nonzero > 0;
     if (!progress || !reader.ok() || num_zero + num_nonzero > num_counts - i) return std::nullopt;
     i += num_zero;
-    for (const size_t end = i + num_nonzero; i < end; ++i) {
-      const uint32_t code = reader.Get();
-      previous += (code >> 1) ^ (0u - (code & 1u));
-      in_range &= previous - 1 < 0xFFFFu;
-      counts[i] = static_cast<uint16_t>(previous);
-    }
-    if (!in_range) return std::nullopt;
+    if (!ReadRun(num_nonzero, &reader, &previous, counts.data() + i)) return std::nullopt;
+    i += num_nonzero;
   }
   if (!reader.AtEnd()) return std::nullopt;
   return counts;
