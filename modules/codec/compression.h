@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-// The general-purpose compressor (zstd, level 1) behind all arrays that are worth it.
+// The general-purpose compressor (zstd) behind all arrays that are worth it.
 namespace declutter::codec {
 
 std::vector<uint8_t> Compress(const uint8_t* data, size_t size);
