@@ -45,9 +45,14 @@ size_t MaskBytes(size_t num_pixels) { return (num_pixels + 7) / 8; }
 // Bit p % 8 of byte p / 8 is pixel p.
 std::vector<uint8_t> MakeMask(const std::vector<FeaturePoint>& points, size_t num_pixels) {
   std::vector<uint8_t> mask(MaskBytes(num_pixels));
+  uint32_t current = 0;  // the byte that the points are in, and its bits so far
+  uint32_t bits = 0;
   for (const FeaturePoint& point : points) {
     const auto pixel = static_cast<uint32_t>(point.pixel);
-    mask[pixel / 8] = static_cast<uint8_t>(mask[pixel / 8] | (1u << (pixel % 8)));
+    bits = pixel / 8 == current ? bits : 0;
+    current = pixel / 8;
+    bits |= 1u << (pixel % 8);
+    mask[current] = static_cast<uint8_t>(bits);
   }
   return mask;
 }
@@ -63,20 +68,32 @@ void WritePoints(const FeatureCloud& features, const std::vector<FeaturePoint>& 
   message->num_bytes = static_cast<int32_t>(message->data.size());
 }
 
-// Points at the pixels set in the mask, without features.
-std::vector<FeaturePoint> ReadMask(const std::vector<uint8_t>& bytes, const FeatureCloud& features,
-                                   size_t num_pixels, int32_t num_points) {
-  std::vector<FeaturePoint> points;
-  for (size_t pixel = 0; pixel < 8 * MaskBytes(num_pixels); ++pixel) {
-    if ((bytes[pixel / 8] >> (pixel % 8) & 1) == 0) continue;
-    const int p = static_cast<int>(pixel);
-    Check(pixel < num_pixels && IsKept(p % features.width, p / features.width, features.thinning),
-          {"data mask", pixel}, 1, "must not be set: beyond the image or thinned out");
-    points.emplace_back().pixel = p;
+// The pixels set in a mask.
+std::vector<int32_t> PixelsOf(const uint8_t* mask, size_t num_bytes, size_t expected) {
+  std::vector<int32_t> pixels;
+  pixels.reserve(expected);
+  for (size_t byte = 0; byte < num_bytes; ++byte) {
+    for (uint32_t bits = mask[byte]; bits != 0; bits &= bits - 1) {
+      pixels.push_back(static_cast<int32_t>(8 * byte) + __builtin_ctz(bits));
+    }
   }
-  Check(points.size() == static_cast<size_t>(num_points), "num_points", num_points,
+  return pixels;
+}
+
+std::vector<int32_t> ReadMask(const std::vector<uint8_t>& bytes, const FeatureCloud& features,
+                              size_t num_pixels, int32_t num_points) {
+  std::vector<int32_t> pixels =
+      PixelsOf(bytes.data(), MaskBytes(num_pixels), static_cast<size_t>(num_points));
+  for (const int32_t p : pixels) {
+    const bool is_kept =
+        features.thinning == 1 || IsKept(p % features.width, p / features.width, features.thinning);
+    if (is_kept && static_cast<size_t>(p) < num_pixels) continue;
+    Check(false, {"data mask", static_cast<size_t>(p)}, 1,
+          "must not be set: beyond the image or thinned out");
+  }
+  Check(pixels.size() == static_cast<size_t>(num_points), "num_points", num_points,
         "is not the number of pixels in the mask");
-  return points;
+  return pixels;
 }
 
 std::vector<uint8_t> DecompressExactly(const feature_cloud_t& message, size_t num_bytes) {
@@ -107,7 +124,8 @@ feature_cloud_t Encode(const FeatureCloud& features) {
   message.curvature_step = kCurvatureStep;
   message.r_min_step_m = kRMinStep_m;
   const auto write = [&features](int step, feature_cloud_t* out) {
-    WritePoints(features, step == 1 ? features.points : Thinned(features, step), out);
+    if (step == 1) return WritePoints(features, features.points, out);
+    WritePoints(features, Thinned(features, step), out);
   };
   ThinUntilFitting(features.thinning, write, &message);
   return Fitting(std::move(message));
@@ -132,9 +150,9 @@ FeatureCloud Decode(const feature_cloud_t& message) {
   const size_t mask_bytes = MaskBytes(num_pixels);
   const auto num_points = static_cast<size_t>(message.num_points);
   const auto bytes = DecompressExactly(message, mask_bytes + kNumFeaturePlanes * num_points);
-  features.points = ReadMask(bytes, features, num_pixels, message.num_points);
-  ReadFeaturePlanes(bytes.data() + mask_bytes, features.mode, steps, features.num_components,
-                    &features.points);
+  const auto pixels = ReadMask(bytes, features, num_pixels, message.num_points);
+  features.points = ReadFeaturePlanes(bytes.data() + mask_bytes, features.mode, steps,
+                                      features.num_components, pixels);
   return features;
 }
 

@@ -29,9 +29,10 @@ struct FeatureSteps {
 void AppendFeaturePlanes(const std::vector<FeaturePoint>& points, FeatureMode mode,
                          std::vector<uint8_t>* bytes);
 
-// Fills all but the pixel of the points from their planes, kNumFeaturePlanes * points->size()
-// bytes. Throws BadMessage when a normal or a component cannot be meant.
-void ReadFeaturePlanes(const uint8_t* planes, FeatureMode mode, const FeatureSteps& steps,
-                       int32_t num_components, std::vector<FeaturePoint>* points);
+// The points at these pixels, from their planes, kNumFeaturePlanes * pixels.size() bytes. Throws
+// BadMessage when a normal or a component cannot be meant.
+std::vector<FeaturePoint> ReadFeaturePlanes(const uint8_t* planes, FeatureMode mode,
+                                            const FeatureSteps& steps, int32_t num_components,
+                                            const std::vector<int32_t>& pixels);
 
 }  // namespace declutter::codec

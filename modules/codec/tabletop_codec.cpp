@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdint>
 
 #include "modules/codec/depth_image_parts.h"
@@ -19,8 +18,9 @@ std::vector<uint16_t> Thinned(const DepthImage& image, int step) {
 }
 
 int CountMeasured(const std::vector<uint16_t>& counts) {
-  return static_cast<int>(counts.size()) -
-         static_cast<int>(std::count(counts.begin(), counts.end(), uint16_t{0}));
+  int num = 0;
+  for (const uint16_t count : counts) num += count != 0;
+  return num;
 }
 
 void WriteHull(const std::vector<Eigen::Vector3f>& hull, tabletop_t* message) {
@@ -86,7 +86,8 @@ tabletop_t Encode(const Tabletop& tabletop) {
       tabletop.thinning == 1 ? CountMeasured(tabletop.objects.counts) : tabletop.num_object_points;
   const auto write = [&tabletop](int step, tabletop_t* out) {
     const DepthImage& objects = tabletop.objects;
-    WriteDepth(objects.depth_scale_m, step == 1 ? objects.counts : Thinned(objects, step), out);
+    if (step == 1) return WriteDepth(objects.depth_scale_m, objects.counts, out);
+    WriteDepth(objects.depth_scale_m, Thinned(objects, step), out);
   };
   ThinUntilFitting(tabletop.thinning, write, &message);
   return Fitting(std::move(message));

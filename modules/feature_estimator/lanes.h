@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "modules/feature_estimator/point_image.h"
+#include "modules/geometry/for_each_processor.h"
 
 namespace declutter {
 
@@ -13,10 +14,6 @@ namespace declutter {
 using Lanes = float __attribute__((vector_size(PointImage::kLanes * sizeof(float))));
 using LaneMask = int32_t __attribute__((vector_size(PointImage::kLanes * sizeof(int32_t))));
 
-// Compiles a function for newer processors too and picks at load time what this one has. Files that
-// use it are compiled with -ffp-contract=off: FMA rounds differently.
-#define DECLUTTER_FOR_EACH_PROCESSOR \
-  __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #define DECLUTTER_LANES inline __attribute__((always_inline))
 
 DECLUTTER_LANES void LoadLanes(const float* from, Lanes& to) { std::memcpy(&to, from, sizeof(to)); }
