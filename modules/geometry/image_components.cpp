@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "modules/geometry/for_each_processor.h"
 #include "modules/geometry/marked_pixels.h"
 
 namespace declutter {
@@ -31,21 +32,35 @@ class DisjointSets {
   std::vector<size_t>& parent_;
 };
 
+constexpr uint8_t kBegins = 1, kEnds = 2;
+
+// Marks in joined[1 .. num - 1] the pixels of a row that are connected with the one before, and in
+// edges those that a run begins or ends with.
+DECLUTTER_FOR_EACH_PROCESSOR void MarkEdges(const uint8_t* mask, const float* values, size_t num,
+                                            float max_step, uint8_t* joined, uint8_t* edges) {
+  for (size_t i = 1; i < num; ++i) {
+    const uint8_t is_near = std::abs(values[i] - values[i - 1]) <= max_step;
+    joined[i] = mask[i] & mask[i - 1] & is_near;
+  }
+  for (size_t i = 0; i < num; ++i) {
+    const int begins = joined[i] > 0 ? 0 : kBegins, ends = joined[i + 1] > 0 ? 0 : kEnds;
+    edges[i] = static_cast<uint8_t>(mask[i] > 0 ? begins + ends : 0);
+  }
+}
+
 // Cuts the marked pixels into runs, each pixel of which is connected with the next one.
 void FindRuns(size_t width, size_t height, const std::vector<uint8_t>& mask,
               const std::vector<float>& values, float max_step, ComponentRuns* rows) {
   rows->runs.clear();
   rows->first_run.clear();
-  for (size_t v = 0; v < height; ++v) {
+  rows->joined.assign(width + 1, 0);
+  rows->edges.resize(width);
+  for (size_t row = 0; row < width * height; row += width) {
     rows->first_run.push_back(rows->runs.size());
-    size_t end = 0;  // of the last run
-    ForEachMarked(mask.data(), v * width, (v + 1) * width, [&](size_t p) {
-      if (p == end && p > v * width && std::abs(values[p] - values[p - 1]) <= max_step) {
-        rows->runs.back().end = p + 1;
-      } else {
-        rows->runs.push_back({p, p + 1});
-      }
-      end = p + 1;
+    MarkEdges(&mask[row], &values[row], width, max_step, rows->joined.data(), rows->edges.data());
+    ForEachMarked(rows->edges.data(), 0, width, [&](size_t u) {
+      if ((rows->edges[u] & kBegins) != 0) rows->runs.push_back({row + u, row + u});
+      if ((rows->edges[u] & kEnds) != 0) rows->runs.back().end = row + u + 1;
     });
   }
   rows->first_run.push_back(rows->runs.size());

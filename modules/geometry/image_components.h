@@ -18,9 +18,12 @@ struct ComponentRuns {
   std::vector<ComponentRun> runs;   // of all marked pixels, in row-major order
   std::vector<int32_t> num_pixels;  // per component
 
-  // What finding them needs meanwhile: the first run of each row, and the set of each run, named by
-  // its first one.
-  std::vector<size_t> first_run, parent;
+  std::vector<size_t> first_run;  // of each row, and how many there are
+
+  // What finding them needs meanwhile: the set of each run, named by its first one, and where runs
+  // go on and begin or end in a row.
+  std::vector<size_t> parent;
+  std::vector<uint8_t> joined, edges;
 };
 
 // The same, pixel by pixel.
@@ -29,8 +32,9 @@ struct ImageComponents {
   std::vector<int32_t> num_pixels;  // per component
 };
 
-// Joins marked pixels that touch (8 neighbours) and whose values differ by at most max_step. mask
-// and values are row-major, width * height long. `recycled` gives its memory to the result.
+// Joins marked pixels (1, the others 0) that touch (8 neighbours) and whose values differ by at
+// most max_step. mask and values are row-major, width * height long. `recycled` gives its memory to
+// the result.
 ComponentRuns FindComponents(int width, int height, const std::vector<uint8_t>& mask,
                              const std::vector<float>& values, float max_step,
                              ComponentRuns recycled = {});

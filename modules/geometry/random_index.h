@@ -12,9 +12,12 @@ class RandomIndex {
  public:
   explicit RandomIndex(uint64_t seed) : state_(seed) {}
 
+  // Leaves out the next num indices.
+  void Skip(size_t num) { state_ += num * kStep; }
+
   // In [0, num), num > 0 and below 2^32.
   size_t operator()(size_t num) {
-    state_ += 0x9E3779B97F4A7C15ull;
+    state_ += kStep;
     uint64_t x = state_;
     x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
     x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
@@ -22,6 +25,8 @@ class RandomIndex {
   }
 
  private:
+  static constexpr uint64_t kStep = 0x9E3779B97F4A7C15ull;
+
   uint64_t state_;
 };
 

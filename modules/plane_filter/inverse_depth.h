@@ -23,10 +23,11 @@ struct InverseDepth {
   }
 };
 
-InverseDepth Invert(const DepthImage& image);
+// Here and below `recycled` gives its memory to the result.
+InverseDepth Invert(const DepthImage& image, InverseDepth recycled = {});
 
 // Every stride-th pixel of every stride-th row.
-InverseDepth Subsample(const InverseDepth& image, int stride);
+InverseDepth Subsample(const InverseDepth& image, int stride, InverseDepth recycled = {});
 
 // The plane 1 / z = a x + b y + c.
 struct InversePlane {
@@ -44,15 +45,17 @@ struct InversePlane {
 using PixelMask = std::vector<uint8_t>;
 
 // Pixels that deviate from the plane by at most band [1/m].
-PixelMask PlaneInliers(const InverseDepth& image, const InversePlane& plane, float band);
+PixelMask PlaneInliers(const InverseDepth& image, const InversePlane& plane, float band,
+                       PixelMask recycled = {});
 
 // Marked pixels, none at the border of the image, with at least min_marked marked ones among
 // themselves and their 8 neighbours.
-PixelMask Amid(const InverseDepth& image, const PixelMask& mask, int min_marked);
+PixelMask Amid(const InverseDepth& image, const PixelMask& mask, int min_marked,
+               PixelMask recycled = {});
 
-// Least squares over the marked pixels within band [1/m] of the plane, weighted by the sensor's
-// noise; nullopt when they do not fix a plane.
-std::optional<InversePlane> FitInliers(const InverseDepth& image, const PixelMask& mask,
+// Least squares over the marked pixels (all of them without a mask) within band [1/m] of the plane,
+// weighted by the sensor's noise; nullopt when they do not fix a plane.
+std::optional<InversePlane> FitInliers(const InverseDepth& image, const PixelMask* mask,
                                        const InversePlane& plane, float band);
 
 }  // namespace declutter

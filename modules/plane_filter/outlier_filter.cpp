@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "modules/plane_filter/pixel_kernels.h"
+#include "modules/geometry/for_each_processor.h"
+#include "modules/geometry/marked_pixels.h"
 
 namespace declutter {
 namespace {
@@ -12,74 +13,31 @@ namespace {
 // Average and spread over all marked pixels need about as many of them.
 constexpr double kStatisticsPixels = 1000;
 
+constexpr int kMinMargin = 2;  // [px] that CountNear always reads
+
 bool HasMarked(const uint8_t* row, int width) {
   return std::memchr(row, 1, static_cast<size_t>(width)) != nullptr;
 }
 
-// The points of an image, unmarked ones left out, with a margin that no window leaves. Distances
-// are over the depth of the point that they are measured from.
-class Points {
- public:
-  Points(const InverseDepth& image, const PixelMask& mask, const PlaneFilterConfig& config)
-      : width_(image.width),
-        height_(image.height),
-        half_width_(config.outlier_window_px() / 2),
-        num_nearest_(static_cast<size_t>(config.outlier_neighbors())),
-        margin_(std::max(half_width_, kMinMargin)),
-        stride_(image.width + 2 * margin_ + static_cast<int>(kKernelPadding)),
-        x_(static_cast<size_t>(stride_)),
-        y_(static_cast<size_t>(image.height + 2 * margin_)),
-        values_(static_cast<size_t>(stride_) * y_.size()) {
-    std::copy(image.ray_x.begin(), image.ray_x.end(), x_.begin() + margin_);
-    std::copy(image.ray_y.begin(), image.ray_y.end(), y_.begin() + margin_);
-    for (int v = 0; v < image.height; ++v) {
-      const float* from = &image.values[image.Index(0, v)];
-      const uint8_t* marked = &mask[image.Index(0, v)];
-      if (!HasMarked(marked, image.width)) continue;
-      float* to = &values_[Index(0, v)];
-      for (int u = 0; u < image.width; ++u) to[u] = from[u] * static_cast<float>(marked[u]);
-    }
+// 0 where not marked.
+DECLUTTER_FOR_EACH_PROCESSOR void Select(const float* values, const uint8_t* marked, size_t num,
+                                         float* selected) {
+  for (size_t i = 0; i < num; ++i) selected[i] = marked[i] > 0 ? values[i] : 0;
+}
+
+// Marks what is marked and has enough points near.
+DECLUTTER_FOR_EACH_PROCESSOR void MarkEnough(const int32_t* num_near, const uint8_t* marked,
+                                             size_t num, int enough, uint8_t* with_enough) {
+  for (size_t i = 0; i < num; ++i) {
+    with_enough[i] = num_near[i] >= enough ? marked[i] : uint8_t{0};
   }
+}
 
-  bool Has(int u, int v) const { return values_[Index(u, v)] > 0; }
-
-  // Mean distance to the nearest points in the window.
-  float MeanOfNearest(int u, int v) const {
-    return declutter::MeanOfNearest(Row(v), static_cast<size_t>(u), half_width_, num_nearest_);
-  }
-
-  // Number of points within limit of each point of row v, as far as it is below num_nearest.
-  void CountNear(int v, float limit, std::vector<int32_t>* counts) const {
-    declutter::CountNear(Row(v), static_cast<size_t>(width_), half_width_, limit,
-                         static_cast<int>(num_nearest_), counts->data());
-  }
-
-  int width() const { return width_; }
-  int height() const { return height_; }
-
- private:
-  static constexpr int kMinMargin = 2;  // [px] that CountNear always reads
-
-  size_t Index(int u, int v) const {
-    return static_cast<size_t>(v + margin_) * static_cast<size_t>(stride_) +
-           static_cast<size_t>(u + margin_);
-  }
-
-  PointWindow Row(int v) const {
-    return {&values_[Index(0, v)], stride_, &x_[static_cast<size_t>(margin_)],
-            &y_[static_cast<size_t>(v + margin_)]};
-  }
-
-  int width_;
-  int height_;
-  int half_width_;
-  size_t num_nearest_;
-  int margin_;
-  int stride_;
-  std::vector<float> x_;
-  std::vector<float> y_;
-  std::vector<float> values_;
-};
+// Marks what of a is not in b.
+DECLUTTER_FOR_EACH_PROCESSOR void Without(const uint8_t* a, const uint8_t* b, size_t num,
+                                          uint8_t* without) {
+  for (size_t i = 0; i < num; ++i) without[i] = a[i] > b[i];
+}
 
 // sigmas standard deviations above the average of the values up to max_value.
 double LimitOf(const std::vector<float>& values, double sigmas, double max_value) {
@@ -97,42 +55,92 @@ double LimitOf(const std::vector<float>& values, double sigmas, double max_value
   return average + sigmas * std::sqrt(std::max(sum_squares / count - average * average, 0.0));
 }
 
+}  // namespace
+
+OutlierFilter::OutlierFilter(const PlaneFilterConfig& config)
+    : half_width_(config.outlier_window_px() / 2),
+      num_nearest_(static_cast<size_t>(config.outlier_neighbors())),
+      sigmas_(config.outlier_sigmas()),
+      margin_(std::max(half_width_, kMinMargin)) {}
+
+void OutlierFilter::CopyMarked(const InverseDepth& image, const PixelMask& mask) {
+  const auto margin = static_cast<size_t>(margin_);
+  const auto width = static_cast<size_t>(image.width);
+  const size_t stride = width + 2 * margin + kKernelPadding;
+  x_.assign(stride, 0);
+  y_.assign(static_cast<size_t>(image.height) + 2 * margin, 0);
+  std::copy(image.ray_x.begin(), image.ray_x.end(), x_.begin() + margin_);
+  std::copy(image.ray_y.begin(), image.ray_y.end(), y_.begin() + margin_);
+  values_.resize(stride * y_.size());
+  stride_ = static_cast<int>(stride);
+  for (size_t row = 0; row < y_.size(); ++row) {
+    float* to = &values_[row * stride];
+    const bool is_margin = row < margin || row >= y_.size() - margin;
+    const size_t begin = is_margin ? 0 : (row - margin) * width;
+    if (is_margin || !HasMarked(&mask[begin], image.width)) {
+      std::fill_n(to, stride, 0.0f);
+      continue;
+    }
+    std::fill_n(to, margin, 0.0f);
+    to += margin;
+    Select(&image.values[begin], &mask[begin], width, to);
+    std::fill_n(to + width, margin + kKernelPadding, 0.0f);
+  }
+}
+
+PointWindow OutlierFilter::Row(int v) const {
+  const size_t row = static_cast<size_t>(v + margin_);
+  const auto margin = static_cast<size_t>(margin_);
+  return {&values_[row * static_cast<size_t>(stride_) + margin], stride_, &x_[margin], &y_[row]};
+}
+
+float OutlierFilter::MeanOfNearest(size_t u, int v, float guess) const {
+  return declutter::MeanOfNearest(Row(v), u, half_width_, num_nearest_, guess);
+}
+
 // The mean distance from which a point is an outlier. Outliers themselves are left out of the
 // second estimate: a handful would set the limit.
-float OutlierLimit(size_t num_marked, double sigmas, Points* points) {
-  const int stride =
-      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(num_marked) / kStatisticsPixels)));
-  std::vector<float> means;
-  for (int v = 0; v < points->height(); v += stride) {
-    for (int u = 0; u < points->width(); u += stride) {
-      if (points->Has(u, v)) means.push_back(points->MeanOfNearest(u, v));
+float OutlierFilter::MaxMeanDistance(const InverseDepth& image, const PixelMask& mask) {
+  const auto num_marked = static_cast<double>(std::count(mask.begin(), mask.end(), 1));
+  const int stride = std::max(1, static_cast<int>(std::sqrt(num_marked / kStatisticsPixels)));
+  means_.clear();
+  for (int v = 0; v < image.height; v += stride) {
+    const float* values = Row(v).values;
+    for (int u = 0; u < image.width; u += stride) {
+      if (values[u] <= 0) continue;
+      // Of the points of a surface the farthest of the nearest is this much farther than the mean,
+      // or more.
+      constexpr float kFarthest = 1.2f;
+      const float guess = means_.empty() ? 0 : kFarthest * means_.back();
+      means_.push_back(MeanOfNearest(static_cast<size_t>(u), v, guess));
     }
   }
   constexpr double kAlone = 1e9;
-  return static_cast<float>(LimitOf(means, sigmas, LimitOf(means, sigmas, kAlone)));
+  return static_cast<float>(LimitOf(means_, sigmas_, LimitOf(means_, sigmas_, kAlone)));
 }
 
-}  // namespace
-
-PixelMask RemoveOutliers(const InverseDepth& image, const PixelMask& mask,
-                         const PlaneFilterConfig& config) {
-  Points points(image, mask, config);
-  const auto num_marked = static_cast<size_t>(std::count(mask.begin(), mask.end(), 1));
-  const float limit = OutlierLimit(num_marked, config.outlier_sigmas(), &points);
-  PixelMask kept(mask.size());
-  std::vector<int32_t> num_near(static_cast<size_t>(image.width) + kKernelPadding);
+const PixelMask& OutlierFilter::Filter(const InverseDepth& image, const PixelMask& mask) {
+  CopyMarked(image, mask);
+  const float limit = MaxMeanDistance(image, mask);
+  const auto width = static_cast<size_t>(image.width);
+  const auto enough = static_cast<int>(num_nearest_);
+  num_near_.resize(width + kKernelPadding);
+  doubtful_.resize(width);
+  kept_.assign(mask.size(), 0);
   for (int v = 0; v < image.height; ++v) {
     const uint8_t* marked = &mask[image.Index(0, v)];
     if (!HasMarked(marked, image.width)) continue;
-    points.CountNear(v, limit, &num_near);
-    for (int u = 0; u < image.width; ++u) {
-      if (!marked[u] || !points.Has(u, v)) continue;
-      // Enough points within limit keep the mean of the nearest ones below it.
-      kept[image.Index(u, v)] = num_near[static_cast<size_t>(u)] >= config.outlier_neighbors() ||
-                                points.MeanOfNearest(u, v) <= limit;
-    }
+    const PointWindow row = Row(v);
+    CountNear(row, width, half_width_, limit, enough, num_near_.data());
+    uint8_t* kept = &kept_[image.Index(0, v)];
+    // Enough points within limit keep the mean of the nearest ones below it.
+    MarkEnough(num_near_.data(), marked, width, enough, kept);
+    Without(marked, kept, width, doubtful_.data());
+    ForEachMarked(doubtful_.data(), 0, width, [&](size_t u) {
+      kept[u] = row.values[u] > 0 && MeanOfNearest(u, v, limit) <= limit;
+    });
   }
-  return kept;
+  return kept_;
 }
 
 }  // namespace declutter

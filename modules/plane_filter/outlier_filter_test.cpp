@@ -38,7 +38,7 @@ PixelMask AddFlyingPixels(DepthImage* image) {
 }
 
 PixelMask RemoveOutliersOf(const DepthImage& image, const PlaneFilterConfig& config) {
-  return RemoveOutliers(Invert(image), PixelMask(image.counts.size(), 1), config);
+  return OutlierFilter(config).Filter(Invert(image), PixelMask(image.counts.size(), 1));
 }
 
 TEST(OutlierFilterTest, DropsFlyingPixels) {
@@ -64,7 +64,7 @@ TEST(OutlierFilterTest, DropsPixelsThatAreAlone) {
     for (int u = 20; u < 40; ++u) mask[static_cast<size_t>(v * kWidth + u)] = 1;
   }
   mask[60 * kWidth + 90] = 1;
-  const PixelMask kept = RemoveOutliers(Invert(image), mask, PlaneFilterConfig());
+  const PixelMask kept = OutlierFilter(PlaneFilterConfig()).Filter(Invert(image), mask);
   EXPECT_EQ(std::count(kept.begin(), kept.end(), 1), 400);
   EXPECT_FALSE(kept[60 * kWidth + 90]);
 }
@@ -72,7 +72,7 @@ TEST(OutlierFilterTest, DropsPixelsThatAreAlone) {
 TEST(OutlierFilterTest, AnEmptyMaskStaysEmpty) {
   const DepthImage image = Step();
   const PixelMask kept =
-      RemoveOutliers(Invert(image), PixelMask(image.counts.size()), PlaneFilterConfig());
+      OutlierFilter(PlaneFilterConfig()).Filter(Invert(image), PixelMask(image.counts.size()));
   EXPECT_EQ(std::count(kept.begin(), kept.end(), 1), 0);
 }
 

@@ -24,6 +24,9 @@ using Vector = hn::Vec<Floats>;
 constexpr size_t kBlock = 512;
 constexpr int kNearHalfWidth = 2;
 
+// Distances in the largest window, and what is written behind them.
+constexpr size_t kMaxWindow = 15 * 15 + 2 * kKernelPadding;
+
 int CountPlaneInliers(const float* x, const float* y, const float* values, size_t num, float a,
                       float b, float c, float band, int max_uncounted) {
   const Floats f;
@@ -152,7 +155,7 @@ HWY_INLINE void CountRow(const PointWindow& window, size_t u, int dv, int first,
     const auto limit = hn::Mul(hn::Mul(hn::Set(f, limit_square), other), other);
     // A missing point is at 0 and never near.
     const auto is_near = hn::RebindMask(i32, hn::Lt(square, limit));
-    count = hn::Add(count, hn::IfThenElseZero(is_near, hn::Set(i32, 1)));
+    count = hn::IfThenElse(is_near, hn::Add(count, hn::Set(i32, 1)), count);
   }
 }
 
@@ -164,20 +167,33 @@ void CountNear(const PointWindow& window, size_t num, int half, float limit, int
   for (size_t u = 0; u < num; u += hn::Lanes(f)) {
     const auto value = hn::LoadU(f, window.values + u);
     const auto is_point = hn::Gt(value, hn::Zero(f));
-    if (hn::AllFalse(f, is_point)) continue;
     auto count = hn::Zero(i32);
-    for (int dv = -kNearHalfWidth; dv <= kNearHalfWidth; ++dv) {
-      CountRow(window, u, dv, -kNearHalfWidth, kNearHalfWidth, limit_square, value, count);
+    hn::StoreU(count, i32, counts + u);
+    if (hn::AllFalse(f, is_point)) continue;
+    const auto has_open = [&] {
+      const auto is_short = hn::Lt(count, hn::Set(i32, enough));
+      return !hn::AllFalse(i32, hn::And(hn::RebindMask(i32, is_point), is_short));
+    };
+    const auto count_row = [&](int dv, int first, int last) {
+      CountRow(window, u, dv, first, last, limit_square, value, count);
+    };
+    // As far as needed: nearly all points have enough within these three rows.
+    for (const int dv : {-1, 0, 1}) count_row(dv, -kNearHalfWidth, kNearHalfWidth);
+    if (has_open()) {
+      for (const int dv : {-kNearHalfWidth, kNearHalfWidth}) {
+        count_row(dv, -kNearHalfWidth, kNearHalfWidth);
+      }
     }
-    const auto is_open =
-        hn::And(hn::RebindMask(i32, is_point), hn::Lt(count, hn::Set(i32, enough)));
-    if (half > kNearHalfWidth && !hn::AllFalse(i32, is_open)) {
-      for (int dv = -half; dv <= half; ++dv) {
-        const bool is_outer = dv < -kNearHalfWidth || dv > kNearHalfWidth;
-        const int inner = is_outer ? 0 : kNearHalfWidth + 1;
-        CountRow(window, u, dv, -half, -HWY_MAX(inner, 1), limit_square, value, count);
-        if (is_outer) CountRow(window, u, dv, 0, 0, limit_square, value, count);
-        CountRow(window, u, dv, HWY_MAX(inner, 1), half, limit_square, value, count);
+    if (half > kNearHalfWidth && has_open()) {
+      for (int dv = kNearHalfWidth + 1; dv <= half; ++dv) {
+        count_row(-dv, -half, half);
+        count_row(dv, -half, half);
+      }
+    }
+    if (half > kNearHalfWidth && has_open()) {
+      for (int dv = -kNearHalfWidth; dv <= kNearHalfWidth; ++dv) {
+        count_row(dv, -half, -kNearHalfWidth - 1);
+        count_row(dv, kNearHalfWidth + 1, half);
       }
     }
     hn::StoreU(hn::Min(count, hn::Set(i32, enough)), i32, counts + u);
@@ -212,11 +228,42 @@ HWY_INLINE size_t SquaredDistances(const PointWindow& window, size_t u, int half
   return num;
 }
 
-// The rank-th smallest value, rank at most num. Counts for each value those below it: no branch
-// depends on data.
-HWY_INLINE float ValueOfRank(const float* values, size_t num, size_t rank) {
+// Keeps the values of the part that holds the rank-th smallest, rank at most num: up to low, from
+// there up to high, or above. Infinities follow. Returns how many are kept; *rank becomes the
+// value's rank among them.
+HWY_INLINE size_t KeepPart(const float* values, size_t num, float low, float high, float* kept,
+                           size_t* rank) {
+  const Floats f;
+  size_t num_low = 0, num_high = 0;
+  for (size_t i = 0; i < num; i += hn::Lanes(f)) {
+    const auto value = hn::LoadU(f, values + i);
+    num_low += hn::CountTrue(f, hn::Le(value, hn::Set(f, low)));
+    num_high += hn::CountTrue(f, hn::Le(value, hn::Set(f, high)));
+  }
+  constexpr float kInfinity = hwy::HighestValue<float>();
+  const bool is_low = num_low >= *rank, is_high = num_high < *rank;
+  const auto above = hn::Set(f, is_low ? -1.0f : is_high ? high : low);
+  const auto below = hn::Set(f, is_low ? low : is_high ? kInfinity : high);
+  *rank -= is_low ? 0 : is_high ? num_high : num_low;
+  size_t num_kept = 0;
+  for (size_t i = 0; i < num; i += hn::Lanes(f)) {
+    const auto value = hn::LoadU(f, values + i);
+    const auto is_kept = hn::And(hn::Gt(value, above), hn::Le(value, below));
+    hn::StoreU(hn::Compress(value, is_kept), f, kept + num_kept);
+    num_kept += hn::CountTrue(f, is_kept);
+  }
+  hn::StoreU(hn::Set(f, kInfinity), f, kept + num_kept);
+  return num_kept;
+}
+
+// The rank-th smallest value, rank at most num, faster for a good guess of it. Counts for each
+// value those below it: no branch depends on data.
+HWY_INLINE float ValueOfRank(const float* values, size_t num, size_t rank, float guess) {
   const Floats f;
   const Ints i32;
+  float kept[kMaxWindow];
+  num = KeepPart(values, num, guess, 2 * guess, kept, &rank);
+  values = kept;
   auto largest = hn::Zero(f);
   for (size_t i = 0; i < num; i += hn::Lanes(f)) {
     const auto value = hn::LoadU(f, values + i);
@@ -231,13 +278,13 @@ HWY_INLINE float ValueOfRank(const float* values, size_t num, size_t rank) {
   return hn::GetLane(hn::MaxOfLanes(f, largest));
 }
 
-float MeanOfNearest(const PointWindow& window, size_t u, int half, size_t num_nearest) {
-  constexpr size_t kMaxWindow = 15 * 15 + 2 * kKernelPadding;
+float MeanOfNearest(const PointWindow& window, size_t u, int half, size_t num_nearest,
+                    float guess) {
   const Floats f;
   float squares[kMaxWindow];
   const size_t num = SquaredDistances(window, u, half, squares);
   if (num == 0) return HUGE_VALF;
-  const float farthest = ValueOfRank(squares, num, HWY_MIN(num, num_nearest));
+  const float farthest = ValueOfRank(squares, num, HWY_MIN(num, num_nearest), guess * guess);
   // Those nearer than the farthest one of the rank; it stands for its equals and for missing ones.
   size_t num_nearer = 0;
   for (size_t i = 0; i < num; i += hn::Lanes(f)) {
@@ -333,8 +380,9 @@ void CountNear(const PointWindow& window, size_t num, int half, float limit, int
   HWY_DYNAMIC_DISPATCH(CountNear)(window, num, half, limit, enough, counts);
 }
 
-float MeanOfNearest(const PointWindow& window, size_t u, int half, size_t num_nearest) {
-  return HWY_DYNAMIC_DISPATCH(MeanOfNearest)(window, u, half, num_nearest);
+float MeanOfNearest(const PointWindow& window, size_t u, int half, size_t num_nearest,
+                    float guess) {
+  return HWY_DYNAMIC_DISPATCH(MeanOfNearest)(window, u, half, num_nearest, guess);
 }
 
 }  // namespace declutter

@@ -70,7 +70,8 @@ void CountNear(const PointWindow& window, size_t num, int half, float limit, int
 
 // Mean distance from column u of the middle row to its num_nearest nearest points in the window of
 // half width `half`, at most 7, over its depth. Where there are fewer, the missing ones count as
-// far as the farthest that there is; a point alone is infinitely far.
-float MeanOfNearest(const PointWindow& window, size_t u, int half, size_t num_nearest);
+// far as the farthest that there is; a point alone is infinitely far. guess, a little less than
+// the distance of the farthest of the nearest over the depth, only makes it faster.
+float MeanOfNearest(const PointWindow& window, size_t u, int half, size_t num_nearest, float guess);
 
 }  // namespace declutter

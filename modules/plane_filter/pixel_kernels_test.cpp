@@ -208,14 +208,17 @@ TEST_P(PixelKernels, AverageTheNearestDistances) {
           sum += distances[std::min(k, distances.size() - 1)];
         }
         const double expected = sum / static_cast<double>(num_nearest);
-        EXPECT_NEAR(MeanOfNearest(Window(4), u, half, num_nearest), expected,
-                    1e-5 * expected + 1e-7);
+        const float mean = MeanOfNearest(Window(4), u, half, num_nearest, 0);
+        EXPECT_NEAR(mean, expected, 1e-5 * expected + 1e-7);
+        for (const float guess : {0.002f, 0.005f, 0.02f, 1.0f}) {
+          EXPECT_EQ(MeanOfNearest(Window(4), u, half, num_nearest, guess), mean);
+        }
       }
     }
   }
   std::fill(values_.begin(), values_.end(), 0.0f);
   values_[(4 + kMargin) * kStride + kMargin + 20] = 1;
-  EXPECT_EQ(MeanOfNearest(Window(4), 20, 3, 12), HUGE_VALF);
+  EXPECT_EQ(MeanOfNearest(Window(4), 20, 3, 12, 0.01f), HUGE_VALF);
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 #include "modules/plane_filter/plane_filter.h"
 
-#include "modules/geometry/marked_pixels.h"
-#include "modules/plane_filter/object_pixels.h"
-#include "modules/plane_filter/outlier_filter.h"
-#include "modules/plane_filter/plane_search.h"
-#include "modules/plane_filter/prism.h"
-#include "modules/plane_filter/scene_roles.h"
+#include <algorithm>
+#include <utility>
+
+#include "modules/geometry/for_each_processor.h"
 
 namespace declutter {
 namespace {
@@ -13,72 +11,101 @@ namespace {
 // Supports are refined on every n-th pixel: neighbours share most of their noise.
 constexpr int kRefineStride = 2;
 
-// Smallest connected region of a support, as part of the image: objects in front leave islands.
-constexpr double kMinRegionPart = 0.001;
-
-// The plane by least squares over its connected region in image, and that region.
-PlaneCandidate Refine(const InverseDepth& image, const InversePlane& plane,
-                      const PlaneFilterConfig& config) {
-  const float sigma = static_cast<float>(config.inverse_depth_sigma());
-  const float band = static_cast<float>(config.inlier_sigmas()) * sigma;
-  const int min_region_pixels =
-      static_cast<int>(config.min_plane_fraction() / 4 * static_cast<double>(image.values.size()));
-  PlaneCandidate refined;
-  refined.plane = plane;
-  refined.region = CoherentRegion(image, plane, band, min_region_pixels);
-  // Feet of objects are in the band on one side only; a narrower one leaves them out.
-  for (const float sigmas : {2.5f, 2.0f, 2.0f}) {
-    const auto fit = FitInliers(image, refined.region, refined.plane, sigmas * sigma);
-    if (fit) refined.plane = *fit;
+void MoveToCamera(const Plane& plane, const std::vector<Eigen::Vector2d>& hull_T,
+                  std::vector<Eigen::Vector3f>* hull_C) {
+  const Eigen::Isometry3d X_CT = TableFrame(plane).inverse();
+  hull_C->clear();
+  for (const Eigen::Vector2d& p_T : hull_T) {
+    hull_C->push_back((X_CT * Eigen::Vector3d(p_T.x(), p_T.y(), 0)).cast<float>());
   }
-  return refined;
 }
 
-std::vector<Eigen::Vector3f> HullInCamera(const Plane& plane,
-                                          const std::vector<Eigen::Vector2d>& hull_T) {
-  const Eigen::Isometry3d X_CT = TableFrame(plane).inverse();
-  std::vector<Eigen::Vector3f> hull_C;
-  for (const Eigen::Vector2d& p_T : hull_T) {
-    hull_C.push_back((X_CT * Eigen::Vector3d(p_T.x(), p_T.y(), 0)).cast<float>());
+// Copies marked counts, leaves 0 for the others, and returns how many are marked.
+DECLUTTER_FOR_EACH_PROCESSOR int CopyMarked(const uint16_t* counts, const uint8_t* marked,
+                                            size_t num, uint16_t* copies) {
+  int num_marked = 0;
+  for (size_t i = 0; i < num; ++i) {
+    copies[i] = marked[i] > 0 ? counts[i] : uint16_t{0};
+    num_marked += marked[i];
   }
-  return hull_C;
+  return num_marked;
 }
 
 }  // namespace
 
-PlaneFilter::PlaneFilter(const PlaneFilterConfig& config) : config_(config) {}
+PlaneFilter::PlaneFilter(const PlaneFilterConfig& config)
+    : config_(config),
+      search_(config),
+      roles_(config),
+      object_pixels_(config),
+      outlier_filter_(config) {}
 
-Tabletop PlaneFilter::Filter(const DepthFrame& frame) const {
-  Tabletop tabletop;
-  tabletop.header = frame.header;
-  tabletop.objects.camera = frame.image.camera;
-  tabletop.objects.depth_scale_m = frame.image.depth_scale_m;
-  if (!frame.header.error.empty() || frame.image.empty()) return tabletop;
-  tabletop.objects.counts.resize(frame.image.counts.size());
+// Where the plane is coherent in half_.
+const PixelMask& PlaneFilter::RegionOf(const InversePlane& plane) {
+  const float band = static_cast<float>(config_.inlier_sigmas()) *
+                     static_cast<float>(config_.inverse_depth_sigma());
+  const int min_region_pixels =
+      static_cast<int>(config_.min_plane_fraction() / 4 * static_cast<double>(half_.values.size()));
+  inliers_ = PlaneInliers(half_, plane, band, std::move(inliers_));
+  return region_.Find(half_, plane, inliers_, band, min_region_pixels);
+}
 
-  const InverseDepth image = Invert(frame.image);
-  const InverseDepth grid = Subsample(image, config_.sample_stride());
-  const InverseDepth half = Subsample(image, kRefineStride);
-  const std::vector<PlaneCandidate> candidates = FindPlanes(grid, config_);
-  const SceneRoles roles = AssignRoles(grid, candidates, config_);
-  std::vector<InversePlane> walls;
-  for (const size_t wall : roles.walls) walls.push_back(candidates[wall].plane);
-  PixelMask objects;
-  for (const size_t index : roles.supports) {
-    const PlaneCandidate support = Refine(half, candidates[index].plane, config_);
-    const auto hull_T = HullInPlane(half, support.plane, support.region);
-    if (hull_T.empty()) continue;
-    const Plane plane = support.plane.ToPlane();
-    tabletop.planes.push_back({plane, HullInCamera(plane, hull_T)});
-    if (!objects.empty()) continue;
-    const PixelMask standing = ObjectPixels(image, support.plane, hull_T, walls, config_);
-    objects = RemoveOutliers(image, standing, config_);
+// The plane by least squares over its region.
+InversePlane PlaneFilter::Refine(const InversePlane& plane, const PixelMask& region) const {
+  InversePlane refined = plane;
+  // Feet of objects are in the band on one side only; a narrower one leaves them out.
+  for (const float sigmas : {2.5f, 2.0f, 2.0f}) {
+    const float band = sigmas * static_cast<float>(config_.inverse_depth_sigma());
+    const auto fit = FitInliers(half_, &region, refined, band);
+    if (fit) refined = *fit;
   }
-  ForEachMarked(objects.data(), 0, objects.size(), [&](size_t i) {
-    tabletop.objects.counts[i] = frame.image.counts[i];
-    ++tabletop.num_object_points;
-  });
-  return tabletop;
+  return refined;
+}
+
+void PlaneFilter::KeepObjects(const DepthImage& image, const PixelMask& objects) {
+  tabletop_.num_object_points = CopyMarked(image.counts.data(), objects.data(), objects.size(),
+                                           tabletop_.objects.counts.data());
+}
+
+void PlaneFilter::FindTabletop(const DepthImage& image) {
+  image_ = Invert(image, std::move(image_));
+  grid_ = Subsample(image_, config_.sample_stride(), std::move(grid_));
+  half_ = Subsample(image_, kRefineStride, std::move(half_));
+  const PlaneCandidates& candidates = search_.Find(grid_);
+  roles_.Assign(grid_, candidates);
+  std::vector<SupportPlane>& planes = tabletop_.planes;
+  std::vector<uint16_t>& counts = tabletop_.objects.counts;
+  size_t num_planes = 0;
+  for (const size_t index : roles_.supports()) {
+    const InversePlane& candidate = candidates.planes[index].plane;
+    const PixelMask& region = RegionOf(candidate);
+    const InversePlane support = Refine(candidate, region);
+    const auto& hull_T = hull_.Find(half_, support, region, 1);
+    if (hull_T.empty()) continue;
+    if (num_planes == planes.size()) planes.emplace_back();
+    planes[num_planes].plane = support.ToPlane();
+    MoveToCamera(planes[num_planes].plane, hull_T, &planes[num_planes].hull);
+    if (num_planes++ > 0) continue;
+    const PixelMask& standing = object_pixels_.Find(image_, support, hull_T, roles_.walls());
+    KeepObjects(image, outlier_filter_.Filter(image_, standing));
+  }
+  planes.resize(num_planes);
+  if (planes.empty()) std::fill(counts.begin(), counts.end(), uint16_t{0});
+}
+
+const Tabletop& PlaneFilter::Filter(const DepthFrame& frame) & {
+  tabletop_.header = frame.header;
+  tabletop_.objects.camera = frame.image.camera;
+  tabletop_.objects.depth_scale_m = frame.image.depth_scale_m;
+  tabletop_.num_object_points = 0;
+  if (!frame.header.error.empty() || frame.image.empty()) {
+    tabletop_.objects.counts.clear();
+    tabletop_.planes.clear();
+    return tabletop_;
+  }
+  tabletop_.objects.counts.resize(frame.image.counts.size());
+  FindTabletop(frame.image);
+  return tabletop_;
 }
 
 }  // namespace declutter

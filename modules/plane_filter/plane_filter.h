@@ -2,7 +2,12 @@
 
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/tabletop.h"
+#include "modules/plane_filter/object_pixels.h"
+#include "modules/plane_filter/outlier_filter.h"
 #include "modules/plane_filter/plane_filter.pb.h"
+#include "modules/plane_filter/plane_search.h"
+#include "modules/plane_filter/prism.h"
+#include "modules/plane_filter/scene_roles.h"
 
 namespace declutter {
 
@@ -15,11 +20,27 @@ class PlaneFilter {
   // The tabletop of a frame in its camera frame C. Object pixels are those of the main support;
   // further planes are parallel to it and fill at least 2 % of the image, the floor for example,
   // and tops of objects are not listed. A frame without a plane, or with an error, gives a tabletop
-  // without planes and without object points.
-  Tabletop Filter(const DepthFrame& frame) const;
+  // without planes and without object points. The result is valid until the next call, which uses
+  // all memory again.
+  const Tabletop& Filter(const DepthFrame& frame) &;
+  Tabletop Filter(const DepthFrame& frame) && { return Filter(frame); }
 
  private:
+  void FindTabletop(const DepthImage& image);
+  const PixelMask& RegionOf(const InversePlane& plane);
+  InversePlane Refine(const InversePlane& plane, const PixelMask& region) const;
+  void KeepObjects(const DepthImage& image, const PixelMask& objects);
+
   PlaneFilterConfig config_;
+  InverseDepth image_, grid_, half_;
+  PlaneSearch search_;
+  SceneRoles roles_;
+  PixelMask inliers_;
+  CoherentRegion region_;  // of a support, in half_
+  PlaneHull hull_;
+  ObjectPixels object_pixels_;
+  OutlierFilter outlier_filter_;
+  Tabletop tabletop_;
 };
 
 }  // namespace declutter

@@ -179,6 +179,34 @@ TEST(PlaneFilterTest, TheSameFrameGivesTheSameTabletop) {
   EXPECT_TRUE(first.objects.counts == second.objects.counts);
 }
 
+void ExpectSame(const Tabletop& tabletop, const Tabletop& expected) {
+  EXPECT_EQ(tabletop.num_object_points, expected.num_object_points);
+  EXPECT_TRUE(tabletop.objects.counts == expected.objects.counts);
+  ASSERT_EQ(tabletop.planes.size(), expected.planes.size());
+  for (size_t i = 0; i < expected.planes.size(); ++i) {
+    EXPECT_EQ(tabletop.planes[i].plane.normal, expected.planes[i].plane.normal);
+    EXPECT_EQ(tabletop.planes[i].hull, expected.planes[i].hull);
+  }
+}
+
+TEST(PlaneFilterTest, NothingIsLeftOfTheFramesBefore) {
+  const std::string small = "camera { width: 320 height: 240 fx: 262 fy: 262 } ";
+  DepthFrame bare;
+  bare.image = RenderText("noise { model: 'none' }").depth;
+  std::fill(bare.image.counts.begin(), bare.image.counts.end(), uint16_t{0});
+  std::vector<DepthFrame> frames(5, bare);
+  frames[0].image = RenderText("clutter {}").depth;
+  frames[1].image = RenderText(small + kBoxAndCan + "room { floor_depth_m: 0.7 }").depth;
+  frames[3].image =
+      RenderText(std::string(kBoxAndCan) + "room { wall { distance_m: 1.31 } }").depth;
+  frames[4].header.error = "no image";
+  PlaneFilter filter{PlaneFilterConfig()};
+  for (const size_t i : {0, 1, 0, 2, 3, 0, 4, 1, 3, 2}) {
+    SCOPED_TRACE(i);
+    ExpectSame(filter.Filter(frames[i]), PlaneFilter(PlaneFilterConfig()).Filter(frames[i]));
+  }
+}
+
 TEST(PlaneFilterTest, AnotherSeedMovesThePlaneByLessThanItsAccuracy) {
   DepthFrame frame;
   frame.image = RenderText("clutter {}").depth;

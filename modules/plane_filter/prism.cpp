@@ -1,5 +1,8 @@
 #include "modules/plane_filter/prism.h"
 
+#include <cstring>
+#include <utility>
+
 #include "modules/plane_filter/pixel_kernels.h"
 
 namespace declutter {
@@ -10,32 +13,36 @@ constexpr double kHullTolerance = 0.003;
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> HullInPlane(const InverseDepth& image, const InversePlane& plane,
-                                         const PixelMask& region) {
+const std::vector<Eigen::Vector2d>& PlaneHull::Find(const InverseDepth& image,
+                                                    const InversePlane& plane,
+                                                    const std::vector<uint8_t>& labels,
+                                                    uint8_t label) {
   const Eigen::Matrix3d R_TC = TableFrame(plane.ToPlane()).linear();
-  std::vector<Eigen::Vector2d> points;
-  const auto add = [&](int u, int v) {
-    const Eigen::Vector3d ray(image.ray_x[static_cast<size_t>(u)],
-                              image.ray_y[static_cast<size_t>(v)], 1);
+  points_.clear();
+  const auto add = [&](size_t u, int v) {
+    const Eigen::Vector3d ray(image.ray_x[u], image.ray_y[static_cast<size_t>(v)], 1);
     const double value = plane.a * ray.x() + plane.b * ray.y() + plane.c;
-    if (value > 0) points.push_back((R_TC * ray).head<2>() / value);
+    if (value > 0) points_.push_back((R_TC * ray).head<2>() / value);
   };
   // A plane keeps lines straight: the ends of the rows have the hull of all pixels.
+  const auto width = static_cast<size_t>(image.width);
   for (int v = 0; v < image.height; ++v) {
-    const uint8_t* row = &region[image.Index(0, v)];
-    int first = 0;
-    while (first < image.width && !row[first]) ++first;
-    if (first == image.width) continue;
-    int last = image.width - 1;
-    while (!row[last]) --last;
-    add(first, v);
+    const uint8_t* row = &labels[image.Index(0, v)];
+    const void* first = std::memchr(row, label, width);
+    if (first == nullptr) continue;
+    add(static_cast<size_t>(static_cast<const uint8_t*>(first) - row), v);
+    size_t last = width - 1;
+    while (row[last] != label) --last;
     add(last, v);
   }
-  return SimplifyHull(ConvexHull(std::move(points)), kHullTolerance);
+  ConvexHull(&points_, &hull_);
+  hull_ = SimplifyHull(std::move(hull_), kHullTolerance);
+  return hull_;
 }
 
-Prism::Prism(const InversePlane& plane, const std::vector<Eigen::Vector2d>& hull_T, double margin_m)
-    : base_(hull_T, margin_m) {
+Prism::Prism(const InversePlane& plane, const std::vector<Eigen::Vector2d>& hull_T, double margin_m,
+             Prism recycled)
+    : base_(hull_T, margin_m, std::move(recycled.base_)) {
   const Eigen::Matrix3d R_TC = TableFrame(plane.ToPlane()).linear();
   x_axis_ = R_TC.row(0).transpose().cast<float>();
   y_axis_ = R_TC.row(1).transpose().cast<float>();

@@ -54,7 +54,7 @@ void ExpectTable(const Tabletop& tabletop, const nlohmann::json& table, const st
 }
 
 TEST_F(RealRecordingsTest, MainSupportIsTheTableOfEveryScene) {
-  const PlaneFilter filter{PlaneFilterConfig()};
+  PlaneFilter filter{PlaneFilterConfig()};
   for (const fs::path& scene : scenes_) {
     for (const std::string image : {"depth.png", "depth_uncropped.png"}) {
       if (!fs::exists(scene / image)) continue;
@@ -65,7 +65,7 @@ TEST_F(RealRecordingsTest, MainSupportIsTheTableOfEveryScene) {
 }
 
 TEST_F(RealRecordingsTest, KeepsLabelledObjectsAndDropsTheTable) {
-  const PlaneFilter filter{PlaneFilterConfig()};
+  PlaneFilter filter{PlaneFilterConfig()};
   int num_labelled = 0;
   for (const fs::path& scene : scenes_) {
     if (!fs::exists(scene / "labels.png")) continue;

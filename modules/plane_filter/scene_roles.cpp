@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "modules/plane_filter/prism.h"
+#include <utility>
 
 namespace declutter {
 namespace {
@@ -36,12 +35,7 @@ constexpr double kMinWallAngle = 0.8;  // [rad] to the main support
 // Planes up to this angle are both level: they may be distorted differently [rad].
 constexpr double kMaxLevelAngle = 0.18;
 
-struct Support {
-  Plane plane;        // in C
-  Prism prism;        // over its hull
-  double pixels = 0;  // weighted number of pixels in the plane
-  double load = 0;    // weighted number of pixels that stand on it
-};
+using Candidates = std::vector<PlaneCandidates::Candidate>;
 
 double CentreWeight(const InverseDepth& grid, int u, int v) {
   const double x = 2.0 * u / grid.width - 1;
@@ -55,14 +49,15 @@ Eigen::Vector3d PointOf(const InverseDepth& grid, int u, int v) {
          grid.values[grid.Index(u, v)];
 }
 
-// Part of the marked pixels whose points in C satisfy a condition.
+// Part of the region of a candidate whose points in C satisfy a condition.
 template <typename Condition>
-double PartOf(const InverseDepth& grid, const PixelMask& mask, Condition condition) {
+double PartOf(const InverseDepth& grid, const PlaneCandidates& candidates, size_t k,
+              Condition condition) {
   int num_pixels = 0;
   int num_true = 0;
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {
-      if (!mask[grid.Index(u, v)]) continue;
+      if (!candidates.IsIn(grid.Index(u, v), k)) continue;
       ++num_pixels;
       num_true += condition(PointOf(grid, u, v));
     }
@@ -70,24 +65,26 @@ double PartOf(const InverseDepth& grid, const PixelMask& mask, Condition conditi
   return num_pixels > 0 ? static_cast<double>(num_true) / num_pixels : 0;
 }
 
-// Whether most of a region is over the hull of a support, within the heights of objects.
-bool StandsOn(const InverseDepth& grid, const PixelMask& region, const Support& support,
-              const PlaneFilterConfig& config) {
-  return PartOf(grid, region, [&](const Eigen::Vector3d& p_C) {
-           const double height = support.plane.Height(p_C);
+// Whether most of the region of candidate j is over the hull of a carrier, within the heights of
+// objects.
+bool StandsOn(const InverseDepth& grid, const PlaneCandidates& candidates, size_t j,
+              const Carrier& carrier, const PlaneFilterConfig& config) {
+  return PartOf(grid, candidates, j, [&](const Eigen::Vector3d& p_C) {
+           const double height = carrier.plane.Height(p_C);
            return height > config.object_height_m() && height < config.max_height_m() &&
-                  support.prism.Contains(p_C);
+                  carrier.prism.Contains(p_C);
          }) > kStandingPart;
 }
 
-bool IsWall(const InverseDepth& grid, const PlaneCandidate& candidate, const Plane& main_plane,
-            const PixelMask& main_region) {
-  const Plane plane = candidate.plane.ToPlane();
+// Whether candidate j is a wall to the main support k, with these planes.
+bool IsWall(const InverseDepth& grid, const PlaneCandidates& candidates, size_t j,
+            const Plane& plane, size_t k, const Plane& main_plane) {
   if (plane.normal.dot(main_plane.normal) > std::cos(kMinWallAngle)) return false;
-  const double part_behind = PartOf(
-      grid, main_region, [&](const Eigen::Vector3d& p_C) { return plane.Height(p_C) < -kBehind; });
+  const double part_behind = PartOf(grid, candidates, k, [&](const Eigen::Vector3d& p_C) {
+    return plane.Height(p_C) < -kBehind;
+  });
   const double lost_angle = kLostRows * (grid.ray_y[1] - grid.ray_y[0]);
-  const double part_low = PartOf(grid, candidate.region, [&](const Eigen::Vector3d& p_C) {
+  const double part_low = PartOf(grid, candidates, j, [&](const Eigen::Vector3d& p_C) {
     return main_plane.Height(p_C) < kMaxWallBase + lost_angle * p_C.z();
   });
   return part_behind < kMaxPartBehindWall && part_low > 0;
@@ -97,14 +94,12 @@ double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
 }
 
-// Marks the region and the inliers at its outline, which regions leave out.
-void MarkWithOutline(const InverseDepth& grid, const PlaneCandidate& candidate,
-                     const PlaneFilterConfig& config, PixelMask* mask) {
-  const float band = static_cast<float>(config.inlier_sigmas() * config.inverse_depth_sigma());
-  const PixelMask inliers = PlaneInliers(grid, candidate.plane, band);
+// Marks the region of candidate k and the inliers at its outline, which regions leave out.
+void MarkWithOutline(const InverseDepth& grid, const PlaneCandidates& candidates, size_t k,
+                     const PixelMask& inliers, PixelMask* mask) {
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {
-      if (!candidate.region[grid.Index(u, v)]) continue;
+      if (!candidates.IsIn(grid.Index(u, v), k)) continue;
       // Regions leave the outermost rows and columns out: all neighbours exist.
       for (int dv = -1; dv <= 1; ++dv) {
         for (int du = -1; du <= 1; ++du) {
@@ -116,63 +111,17 @@ void MarkWithOutline(const InverseDepth& grid, const PlaneCandidate& candidate,
   }
 }
 
-// Pixels that cannot be the load of a plane: those of level planes, which may be supports
-// themselves, and those of planes that stand on no other, or are a wall to it.
-PixelMask NotLoad(const InverseDepth& grid, const std::vector<PlaneCandidate>& candidates,
-                  const std::vector<Support>& supports, const PlaneFilterConfig& config) {
-  PixelMask excluded(grid.values.size());
-  for (size_t j = 0; j < candidates.size(); ++j) {
-    bool load = false;
-    for (size_t k = 0; k < supports.size() && !load; ++k) {
-      load = k != j && Angle(supports[k].plane.normal, supports[j].plane.normal) > kMaxLevelAngle &&
-             StandsOn(grid, candidates[j].region, supports[k], config) &&
-             !IsWall(grid, candidates[j], supports[k].plane, candidates[k].region);
-    }
-    if (!load) MarkWithOutline(grid, candidates[j], config, &excluded);
-  }
-  return excluded;
-}
-
 // Whether another sizeable level plane is as far above plane k as a table above the floor.
-bool IsFloor(const std::vector<PlaneCandidate>& candidates, const std::vector<Support>& supports,
-             size_t k, double min_pixels, const PlaneFilterConfig& config) {
-  for (size_t j = 0; j < supports.size(); ++j) {
+bool IsFloor(const Candidates& candidates, const std::vector<Carrier>& carriers, size_t k,
+             double min_pixels, const PlaneFilterConfig& config) {
+  for (size_t j = 0; j < candidates.size(); ++j) {
     if (candidates[j].num_pixels >= min_pixels &&
-        supports[k].plane.d - supports[j].plane.d > config.min_table_height_m() &&
-        Angle(supports[k].plane.normal, supports[j].plane.normal) < kMaxLevelAngle) {
+        carriers[k].plane.d - carriers[j].plane.d > config.min_table_height_m() &&
+        Angle(carriers[k].plane.normal, carriers[j].plane.normal) < kMaxLevelAngle) {
       return true;
     }
   }
   return false;
-}
-
-// Adds every pixel to its own plane, or to the load of the plane that it stands on: the highest
-// one under it.
-void Weigh(const InverseDepth& grid, const std::vector<PlaneCandidate>& candidates,
-           const PixelMask& not_load, const PlaneFilterConfig& config,
-           std::vector<Support>* supports) {
-  for (int v = 0; v < grid.height; ++v) {
-    for (int u = 0; u < grid.width; ++u) {
-      const size_t i = grid.Index(u, v);
-      if (grid.values[i] <= 0) continue;
-      const double weight = CentreWeight(grid, u, v);
-      const Eigen::Vector3d p_C = PointOf(grid, u, v);
-      Support* carrier = nullptr;
-      double carrier_height = config.max_height_m();
-      for (size_t k = 0; k < supports->size(); ++k) {
-        Support& support = (*supports)[k];
-        if (candidates[k].region[i]) support.pixels += weight;
-        const double height = support.plane.Height(p_C);
-        if (not_load[i] || height < config.object_height_m() || height > carrier_height ||
-            !support.prism.Contains(p_C)) {
-          continue;
-        }
-        carrier = &support;
-        carrier_height = height;
-      }
-      if (carrier != nullptr) carrier->load += weight;
-    }
-  }
 }
 
 double LevelWeight(double tilt, const PlaneFilterConfig& config) {
@@ -183,53 +132,118 @@ double LevelWeight(double tilt, const PlaneFilterConfig& config) {
   return 1 + steepness * (config.wall_weight() - 1);
 }
 
-double Score(const InverseDepth& grid, const Support& support, bool is_floor,
+double Score(const InverseDepth& grid, const Carrier& carrier, bool is_floor,
              const PlaneFilterConfig& config) {
   const double bare_load = kBareLoad * static_cast<double>(grid.values.size());
-  const double tilt = Angle(support.plane.normal, -Eigen::Vector3d::UnitY());
+  const double tilt = Angle(carrier.plane.normal, -Eigen::Vector3d::UnitY());
   const double level = LevelWeight(tilt, config);
   const double high = is_floor ? config.floor_weight() : 1;
-  return level * high * std::sqrt(support.pixels * (support.load + bare_load));
+  return level * high * std::sqrt(carrier.pixels * (carrier.load + bare_load));
+}
+
+double MinSupportPixels(const InverseDepth& grid) {
+  return kMinFurtherSupport * static_cast<double>(grid.values.size());
 }
 
 }  // namespace
 
-SceneRoles AssignRoles(const InverseDepth& grid, const std::vector<PlaneCandidate>& candidates,
-                       const PlaneFilterConfig& config) {
-  SceneRoles roles;
-  if (candidates.empty()) return roles;
-  std::vector<Support> supports;
-  for (const PlaneCandidate& candidate : candidates) {
-    const auto hull_T = HullInPlane(grid, candidate.plane, candidate.region);
-    supports.push_back({candidate.plane.ToPlane(), Prism(candidate.plane, hull_T, 0.0)});
+void SceneRoles::MakeCarriers(const InverseDepth& grid, const PlaneCandidates& candidates) {
+  carriers_.resize(std::max(carriers_.size(), candidates.planes.size()));
+  for (size_t k = 0; k < candidates.planes.size(); ++k) {
+    const InversePlane& plane = candidates.planes[k].plane;
+    const auto& hull_T = hull_.Find(grid, plane, candidates.region_of, static_cast<uint8_t>(k + 1));
+    carriers_[k] = {plane.ToPlane(), Prism(plane, hull_T, 0.0, std::move(carriers_[k].prism))};
   }
-  Weigh(grid, candidates, NotLoad(grid, candidates, supports, config), config, &supports);
+}
 
-  const double min_pixels = kMinFurtherSupport * static_cast<double>(grid.values.size());
+// Pixels that cannot be the load of a plane: those of level planes, which may be supports
+// themselves, and those of planes that stand on no other, or are a wall to it.
+void SceneRoles::FindNotLoad(const InverseDepth& grid, const PlaneCandidates& candidates) {
+  const float band = static_cast<float>(config_.inlier_sigmas() * config_.inverse_depth_sigma());
+  const size_t num = candidates.planes.size();
+  not_load_.assign(grid.values.size(), 0);
+  for (size_t j = 0; j < num; ++j) {
+    const Plane& plane = carriers_[j].plane;
+    bool load = false;
+    for (size_t k = 0; k < num && !load; ++k) {
+      load = k != j && Angle(carriers_[k].plane.normal, plane.normal) > kMaxLevelAngle &&
+             StandsOn(grid, candidates, j, carriers_[k], config_) &&
+             !IsWall(grid, candidates, j, plane, k, carriers_[k].plane);
+    }
+    if (load) continue;
+    inliers_ = PlaneInliers(grid, candidates.planes[j].plane, band, std::move(inliers_));
+    MarkWithOutline(grid, candidates, j, inliers_, &not_load_);
+  }
+}
+
+// Adds every pixel to its own plane, or to the load of the plane that it stands on: the highest
+// one under it.
+void SceneRoles::Weigh(const InverseDepth& grid, const PlaneCandidates& candidates) {
+  for (int v = 0; v < grid.height; ++v) {
+    for (int u = 0; u < grid.width; ++u) {
+      const size_t i = grid.Index(u, v);
+      if (grid.values[i] <= 0) continue;
+      const double weight = CentreWeight(grid, u, v);
+      const size_t own = candidates.region_of[i];
+      if (own > 0) carriers_[own - 1].pixels += weight;
+      if (not_load_[i]) continue;
+      const Eigen::Vector3d p_C = PointOf(grid, u, v);
+      Carrier* carrier = nullptr;
+      double carrier_height = config_.max_height_m();
+      for (size_t k = 0; k < candidates.planes.size(); ++k) {
+        const double height = carriers_[k].plane.Height(p_C);
+        if (height < config_.object_height_m() || height > carrier_height ||
+            !carriers_[k].prism.Contains(p_C)) {
+          continue;
+        }
+        carrier = &carriers_[k];
+        carrier_height = height;
+      }
+      if (carrier != nullptr) carrier->load += weight;
+    }
+  }
+}
+
+size_t SceneRoles::MainSupport(const InverseDepth& grid, const PlaneCandidates& candidates) const {
   size_t main = 0;
   double best_score = -1;
-  for (size_t k = 0; k < supports.size(); ++k) {
-    const bool is_floor = IsFloor(candidates, supports, k, min_pixels, config);
-    const double score = Score(grid, supports[k], is_floor, config);
+  for (size_t k = 0; k < candidates.planes.size(); ++k) {
+    const bool is_floor = IsFloor(candidates.planes, carriers_, k, MinSupportPixels(grid), config_);
+    const double score = Score(grid, carriers_[k], is_floor, config_);
     if (score <= best_score) continue;
     best_score = score;
     main = k;
   }
-  roles.supports.push_back(main);
-  for (size_t k = 0; k < supports.size(); ++k) {
+  return main;
+}
+
+void SceneRoles::Assign(const InverseDepth& grid, const PlaneCandidates& candidates) {
+  const Candidates& planes = candidates.planes;
+  supports_.clear();
+  walls_.clear();
+  if (planes.empty()) return;
+  MakeCarriers(grid, candidates);
+  FindNotLoad(grid, candidates);
+  Weigh(grid, candidates);
+  const size_t main = MainSupport(grid, candidates);
+  const Plane& main_plane = carriers_[main].plane;
+  supports_.push_back(main);
+  for (size_t k = 0; k < planes.size(); ++k) {
     if (k == main) continue;
-    const double angle = Angle(supports[k].plane.normal, supports[main].plane.normal);
-    if (IsWall(grid, candidates[k], supports[main].plane, candidates[main].region)) {
-      roles.walls.push_back(k);
-    } else if (angle <= config.max_parallel_angle_rad() && candidates[k].num_pixels >= min_pixels &&
-               !StandsOn(grid, candidates[k].region, supports[main], config)) {
-      roles.supports.push_back(k);
+    const Plane& plane = carriers_[k].plane;
+    if (IsWall(grid, candidates, k, plane, main, main_plane)) {
+      walls_.push_back(planes[k].plane);
+    } else if (Angle(plane.normal, main_plane.normal) <= config_.max_parallel_angle_rad() &&
+               planes[k].num_pixels >= MinSupportPixels(grid) &&
+               !StandsOn(grid, candidates, k, carriers_[main], config_)) {
+      supports_.push_back(k);
     }
   }
-  std::stable_sort(roles.supports.begin() + 1, roles.supports.end(), [&](size_t a, size_t b) {
-    return candidates[a].num_pixels > candidates[b].num_pixels;
+  std::sort(supports_.begin() + 1, supports_.end(), [&](size_t a, size_t b) {
+    return planes[a].num_pixels != planes[b].num_pixels
+               ? planes[a].num_pixels > planes[b].num_pixels
+               : a < b;
   });
-  return roles;
 }
 
 }  // namespace declutter
