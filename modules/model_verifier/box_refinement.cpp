@@ -73,7 +73,7 @@ Solid RefineBox(Solid solid, const Observation& observation, FitPoints* points) 
   for (size_t i = 0; i < kFaces.size(); ++i) {
     const BoxFace& face = kFaces[i];
     // What is blurred tells where a small face is, but not how it is turned.
-    if (!IsSeen(sums[i])) sums[i] = SumsOf(face, *points, 0.5 * solid.size, 0);
+    if (!IsSeen(sums[i])) sums[i] = SumsOf(face, *points, 0.5 * solid.size, -kFitEdgeMargin);
     if (!IsSeen(sums[i])) continue;
     (face.sign > 0 ? high : low)[face.axis] += (sums[i].wx + yaw * sums[i].wl) / sums[i].w;
   }

@@ -18,9 +18,8 @@ Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buff
 bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
                      RayEvidence* evidence, FitBuffers* buffers);
 
-// The same up to max_fits times; a cylinder that no fit could move climbs to the best place near
-// it.
-void RefineOrClimb(const Observation& fitted, const Observation& judging, int max_fits,
-                   Solid* solid, RayEvidence* evidence, FitBuffers* buffers);
+// The same; a cylinder that the fit could not move climbs to the best place near it.
+bool RefineOrClimb(const Observation& fitted, const Observation& judging, Solid* solid,
+                   RayEvidence* evidence, FitBuffers* buffers);
 
 }  // namespace declutter
