@@ -276,7 +276,7 @@ bool ModelSelection::RefineRivals(const Candidate& best, const Input& input) {
         !ShareSpace(candidate.hypothesis.solid, space, config_.max_shared_volume())) {
       continue;
     }
-    RefineOrClimb(input.observation, input.observation, 1, &candidate.hypothesis.solid,
+    RefineOrClimb(input.observation, input.observation, &candidate.hypothesis.solid,
                   &candidate.evidence, input.buffers);
     candidate.is_refined = true;
     candidate.misfit_share =
