@@ -237,7 +237,7 @@ std::optional<size_t> ModelSelection::AddRefined(const Hypothesis& hypothesis, d
   if (candidate.evidence.num_explained() < min_px) return std::nullopt;
   candidate.Begin(hypothesis);
   if (config_.refine()) {
-    RefineOrClimb(input.observation, input.observation, 1, &candidate.hypothesis.solid,
+    RefineOrClimb(input.observation, input.observation, &candidate.hypothesis.solid,
                   &candidate.evidence, input.buffers);
   }
   if (!IsPlausible(candidate.evidence)) return std::nullopt;
