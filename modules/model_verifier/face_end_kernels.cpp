@@ -16,10 +16,11 @@ constexpr int32_t kNotCounted = 3 * EndProfile::kNumBins;
 
 // Where rays meet the plane of a face.
 struct FaceHit {
-  Vector outward;  // [m] from the end
-  Vector length;   // [m] of a ray with 1 m of depth
-  Vector z;        // [m] depth there
-  Mask is_near;    // in the profile
+  Vector outward;      // [m] from the end
+  Vector outward_ray;  // by how much that grows with 1 m of depth
+  Vector length;       // [m] of a ray with 1 m of depth
+  Vector z;            // [m] depth there
+  Mask is_near;        // in the profile
 };
 
 HWY_INLINE FaceHit HitOf(const RaySolid& box, const FaceLimits& limits, const FaceEnd& end,
@@ -38,8 +39,9 @@ HWY_INLINE FaceHit HitOf(const RaySolid& box, const FaceLimits& limits, const Fa
   const auto at = [&](int axis) {
     return hn::Add(Constant(box.camera_O[axis]), hn::Mul(hit.z, along(axis)));
   };
-  hit.outward = hn::Sub(hn::Mul(Constant(static_cast<float>(end.end_sign)), at(end.end_axis)),
-                        Constant(box.half_size[end.end_axis]));
+  const auto end_sign = Constant(static_cast<float>(end.end_sign));
+  hit.outward = hn::Sub(hn::Mul(end_sign, at(end.end_axis)), Constant(box.half_size[end.end_axis]));
+  hit.outward_ray = hn::Mul(end_sign, along(end.end_axis));
   const auto is_inside =
       hn::Le(hn::Abs(at(across)), Constant(box.half_size[across] - limits.edge_margin_m));
   const float last = limits.first_bin_m + limits.bin_m * EndProfile::kNumBins;
@@ -67,17 +69,23 @@ HWY_INLINE void AddPixels(const RaySolid& box, const RayWindow& window, const Fa
   const auto cosine =
       hn::Mul(Constant(static_cast<float>(end.face_sign)), Dot(box.R_OC + 3 * end.face_axis, n_C));
   const auto is_turned = hn::And(IsKnown(n_C), hn::Lt(cosine, Constant(limits.min_normal_cos)));
-  const auto is_gone =
-      hn::Or(hn::Or(hn::Gt(behind, tolerance), is_turned), hn::Lt(signed_z, hn::Zero(f)));
+  const auto is_other = hn::Or(is_turned, hn::Lt(signed_z, hn::Zero(f)));
+  const auto is_behind = hn::Gt(behind, tolerance);
+  const auto is_gone = hn::Or(is_behind, is_other);
   const auto is_unknown = hn::Eq(z, hn::Zero(f));
   const auto is_counted = hn::And(is_near, hn::Or(is_unknown, hn::Ge(behind, hn::Neg(tolerance))));
+  // What touches the face rises from where it is measured; what is behind is seen past the face.
+  const auto outward =
+      hn::Add(hit.outward, hn::IfThenElseZero(hn::AndNot(hn::Or(is_behind, is_unknown), is_other),
+                                              hn::Mul(hn::Sub(z, hit.z), hit.outward_ray)));
   const auto row =
       hn::IfThenElse(hn::RebindMask(i32, is_unknown), hn::Set(i32, 2),
                      hn::IfThenElseZero(hn::RebindMask(i32, is_gone), hn::Set(i32, 1)));
   const auto bin = hn::ConvertTo(
-      i32, hn::Mul(hn::Sub(hit.outward, Constant(limits.first_bin_m)), Constant(1 / limits.bin_m)));
-  const auto index = hn::Add(hn::Mul(row, hn::Set(i32, EndProfile::kNumBins)),
-                             hn::Min(bin, hn::Set(i32, EndProfile::kNumBins - 1)));
+      i32, hn::Mul(hn::Sub(outward, Constant(limits.first_bin_m)), Constant(1 / limits.bin_m)));
+  const auto index =
+      hn::Add(hn::Mul(row, hn::Set(i32, EndProfile::kNumBins)),
+              hn::Min(hn::Max(bin, hn::Zero(i32)), hn::Set(i32, EndProfile::kNumBins - 1)));
   HWY_ALIGN int32_t indices[kRayPadding];
   hn::Store(hn::IfThenElse(hn::RebindMask(i32, is_counted), index, hn::Set(i32, kNotCounted)), i32,
             indices);

@@ -9,9 +9,12 @@
 namespace declutter {
 namespace {
 
-FitLimits MakeLimits() {
+constexpr float kMarginOfBox = 0.012f;       // [m] what surfaces are blurred by, and a tolerance
+constexpr float kMarginOfCylinder = 0.030f;  // [m] and how far a fit may move it
+
+FitLimits LimitsWith(float margin_m) {
   FitLimits limits;
-  limits.margin_m = 0.030f;
+  limits.margin_m = margin_m;
   limits.sigma_per_square = static_cast<float>(kSigmaPerSquaredDepth);
   limits.min_tolerance_m = 0.005f;
   limits.tolerance_in_sigmas = 3;
@@ -24,8 +27,10 @@ FitLimits MakeLimits() {
 }  // namespace
 
 void FitPoints::Find(const Solid& solid, const Observation& observation) {
-  static const FitLimits kLimits = MakeLimits();
-  const RayWindow window = WindowOf(solid, kLimits.margin_m, observation);
+  static const FitLimits kOfBox = LimitsWith(kMarginOfBox);
+  static const FitLimits kOfCylinder = LimitsWith(kMarginOfCylinder);
+  const FitLimits& limits = solid.shape == Shape::kBox ? kOfBox : kOfCylinder;
+  const RayWindow window = WindowOf(solid, limits.margin_m, observation);
   const auto room = static_cast<size_t>(window.u_end - window.u_begin) *
                         static_cast<size_t>(window.v_end - window.v_begin) +
                     kRayPadding;
@@ -36,7 +41,7 @@ void FitPoints::Find(const Solid& solid, const Observation& observation) {
   for (size_t i = 0; i < std::size(arrays); ++i) *arrays[i] = &buffer_[i * room];
   surfaces_.resize(room);
   arrays_.surfaces = surfaces_.data();
-  FindFitPoints(AsRaySolid(solid, observation.support), window, kLimits, &arrays_);
+  FindFitPoints(AsRaySolid(solid, observation.support), window, limits, &arrays_);
   pixel_weight_ = observation.grid.pixel_weight();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "modules/model_verifier/model_selection.h"
@@ -16,11 +17,12 @@ class SeparateFits {
            FitBuffers* buffers);
 
  private:
-  void Mark(const PixelGrid& all, const PixelWindow& window);
+  void Mark();
   void Claim(size_t index, const PixelWindow& window);
 
   PixelOwners owners_;  // of every second pixel
   PixelGrid grid_;      // of every pixel; depths are negative between pixels that all have an owner
+  std::vector<ptrdiff_t> claimed_;  // pixels of grid_, by the solid that is fitted
 };
 
 }  // namespace declutter
