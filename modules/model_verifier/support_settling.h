@@ -12,6 +12,9 @@ namespace declutter {
 // height of their tops; supported_by counts from 1 in that order.
 void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects);
 
+// [m] of the highest point of a solid above the support plane.
+double TopOf(const Solid& solid, const Plane& support);
+
 // A solid lengthened along its z axis down to the support plane.
 Solid ExtendedToSupport(const Solid& solid, const Plane& support);
 
