@@ -58,6 +58,32 @@ void Label(const std::vector<RayEvidence>& evidence, std::vector<int32_t>* best_
   }
 }
 
+// How many objects explain each pixel.
+std::vector<uint8_t> CountExplaining(const std::vector<RayEvidence>& evidence, size_t num_objects,
+                                     size_t num_pixels) {
+  std::vector<uint8_t> num(num_pixels, 0);
+  for (size_t i = 0; i < num_objects; ++i) {
+    for (const int32_t pixel : evidence[i].explained) ++num[static_cast<size_t>(pixel)];
+  }
+  return num;
+}
+
+// True when enough speaks for an object in its final place that speaks for no other; of one of
+// which no extent is seen, twice as much must be seen at all.
+bool IsSupported(const ObjectModel& object, const RayEvidence& evidence,
+                 const std::vector<uint8_t>& num_explaining, double min_px) {
+  double unshared = 0;  // [kFitUnit]
+  for (size_t k = 0; k < evidence.explained.size(); ++k) {
+    const bool is_shared = num_explaining[static_cast<size_t>(evidence.explained[k])] > 1;
+    unshared += is_shared ? 0 : evidence.fits[k];
+  }
+  const double balance = unshared / kFitUnit - evidence.num_violating - evidence.num_contradicting -
+                         evidence.num_overhanging;
+  const bool is_seen = std::any_of(object.evidence.begin(), object.evidence.end(),
+                                   [](Evidence extent) { return extent != Evidence::kAssumed; });
+  return balance >= min_px && (is_seen || evidence.num_explained() >= 2 * min_px);
+}
+
 // Takes the pixels of objects out of a grid of all pixels.
 void RemoveLabelled(const std::vector<uint8_t>& labels, PixelGrid* grid) {
   for (int v = 0; v < grid->rows; ++v) {
@@ -137,6 +163,7 @@ void ModelVerifier::Measure(ObjectList* list) {
     object.id = static_cast<int32_t>(i + 1);
   }
   Label(evidence_, &best_fits_, list);
+  const std::vector<uint8_t> num_explaining = CountExplaining(evidence_, num, list->labels.size());
   unlabelled_ = observation.grid;
   RemoveLabelled(list->labels, &unlabelled_);
   const Observation unlabelled{observation.image, unlabelled_, observation.normals,
@@ -152,6 +179,9 @@ void ModelVerifier::Measure(ObjectList* list) {
         EndsOf(object.solid, object.evidence, evidence_[i], observed_.every_second_pixel());
     object.evidence = ExtentEvidence(ends);
     object.covariance = CovarianceOf(object.solid, ends, evidence_[i], observation);
+    if (!IsSupported(object, evidence_[i], num_explaining, config_.min_explained_px())) {
+      object.confidence = 0;
+    }
   }
 }
 
