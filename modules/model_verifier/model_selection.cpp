@@ -40,6 +40,7 @@ void ModelSelection::Run(const std::vector<Hypothesis>& hypotheses, const Observ
   selected_.clear();
   AddCandidates(hypotheses, input);
   SelectBest(input);
+  ProposeAboveBlockers(input);
   ProposeForUnexplained(input);
   for (int round = 0; round < kMaxRounds && Exchange(input); ++round) {
   }
@@ -52,13 +53,53 @@ void ModelSelection::SelectBest(const Input& input) {
   }
 }
 
+// Tries candidates that reach down into selected ones as what stands on those: a side that goes on
+// below may have been taken for theirs.
+void ModelSelection::ProposeAboveBlockers(const Input& input) {
+  constexpr double kMinHeight = 0.015;  // [m] that can be grasped
+  const Plane& support = input.observation.support;
+  const auto stands = [&](const Solid& solid) {
+    return solid.X_CO.linear().col(2).dot(support.normal) > 0.99;
+  };
+  const size_t num = num_candidates_;
+  for (size_t i = 0; i < num; ++i) {
+    const Candidate& candidate = candidates_[i];
+    if (candidate.is_out || candidate.is_selected || candidate.num_blockers == 0 ||
+        !stands(candidate.hypothesis.solid)) {
+      continue;
+    }
+    const double top = TopOf(candidate.hypothesis.solid, support);
+    double floor = top - candidate.hypothesis.solid.height();
+    const double bottom = floor;
+    double rivals_gain = 0;
+    for (const size_t blocker : BlockersOf(i)) {
+      const Solid& solid = candidates_[blocker].hypothesis.solid;
+      const double top_below = TopOf(solid, support);
+      if (stands(solid) && top_below < top - kMinHeight) {
+        floor = std::max(floor, top_below);
+      } else {
+        rivals_gain += candidates_[blocker].selection_gain;
+      }
+    }
+    if (floor == bottom ||
+        candidate.evidence.Balance() < std::max(config_.min_explained_px(), rivals_gain)) {
+      continue;
+    }
+    Hypothesis upper = candidate.hypothesis;
+    upper.solid.X_CO = upper.solid.X_CO * Eigen::Translation3d(0, 0, 0.5 * (floor - bottom));
+    upper.solid.size.z() = top - floor;
+    AddRefined(upper, config_.min_explained_px(), input);
+  }
+  SelectBest(input);
+}
+
 // Tries solids over what no selected one explains. Nothing voted for them, so that they must
 // explain most of what they were laid over, as well as noise allows, and little of what others do.
 void ModelSelection::ProposeForUnexplained(const Input& input) {
-  constexpr double kMinShare = 0.7;        // of the points it was laid over that a solid explains
-  constexpr double kMinShareBefore = 0.5;  // the same before it is refined
-  constexpr double kMinFit = 0.8;          // of a pixel: noise leaves 8 / 9
-  constexpr double kMinUnshared = 0.6;     // of what speaks for it, from pixels of its own
+  constexpr double kMinShare =
+      0.5;  // of the points it was laid over that a solid explains, before and after it is refined
+  constexpr double kMinFit = 0.8;       // of a pixel: noise leaves 8 / 9
+  constexpr double kMinUnshared = 0.6;  // of what speaks for it, from pixels of its own
   std::vector<Solid> selected;
   std::vector<uint8_t> is_explained = num_explaining_;
   for (const size_t i : selected_) {
@@ -73,7 +114,7 @@ void ModelSelection::ProposeForUnexplained(const Input& input) {
   }
   for (const LateProposal& proposal : declutter::ProposeForUnexplained(
            selected, is_explained, config_.min_explained_px(), input.observation)) {
-    const auto added = AddRefined(proposal.hypothesis, kMinShareBefore * proposal.num_px, input);
+    const auto added = AddRefined(proposal.hypothesis, kMinShare * proposal.num_px, input);
     if (!added) continue;
     Candidate& candidate = candidates_[*added];
     const RayEvidence& evidence = candidate.evidence;

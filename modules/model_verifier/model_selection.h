@@ -56,6 +56,7 @@ class ModelSelection {
   };
 
   void SelectBest(const Input& input);
+  void ProposeAboveBlockers(const Input& input);
   void ProposeForUnexplained(const Input& input);
   void AddCandidates(const std::vector<Hypothesis>& hypotheses, const Input& input);
   bool Exchange(const Input& input);

@@ -40,6 +40,31 @@ void LabelHollow(const std::vector<RayEvidence>& evidence, ObjectList* list) {
   }
 }
 
+// How many objects explain each pixel.
+void CountExplaining(const std::vector<RayEvidence>& evidence, size_t num_objects,
+                     size_t num_pixels, std::vector<uint8_t>* num) {
+  num->assign(num_pixels, 0);
+  for (size_t i = 0; i < num_objects; ++i) {
+    for (const int32_t pixel : evidence[i].explained) ++(*num)[static_cast<size_t>(pixel)];
+  }
+}
+
+// True when enough speaks for an object in its final place that speaks for no other; of one of
+// which no extent is seen, twice as much must be seen at all.
+bool IsSupported(const ObjectModel& object, const RayEvidence& evidence,
+                 const std::vector<uint8_t>& num_explaining, double min_px) {
+  double unshared = 0;  // [kFitUnit]
+  for (size_t k = 0; k < evidence.explained.size(); ++k) {
+    const bool is_shared = num_explaining[static_cast<size_t>(evidence.explained[k])] > 1;
+    unshared += is_shared ? 0 : evidence.fits[k];
+  }
+  const double balance = unshared / kFitUnit - evidence.num_violating - evidence.num_contradicting -
+                         evidence.num_overhanging;
+  const bool is_seen = std::any_of(object.evidence.begin(), object.evidence.end(),
+                                   [](Evidence extent) { return extent != Evidence::kAssumed; });
+  return balance >= min_px && (is_seen || evidence.num_explained() >= 2 * min_px);
+}
+
 // Takes the pixels of objects out of a grid of all pixels.
 void RemoveLabelled(const std::vector<uint8_t>& labels, PixelGrid* grid) {
   for (int v = 0; v < grid->rows; ++v) {
@@ -121,6 +146,7 @@ void ModelVerifier::Measure(ObjectList* list) {
   owners_.Assign(of_objects, observation.grid.num_pixels());
   list->labels = owners_.owners();
   LabelHollow(evidence_, list);
+  CountExplaining(evidence_, num, list->labels.size(), &num_explaining_);
   unlabelled_ = observation.grid;
   RemoveLabelled(list->labels, &unlabelled_);
   const Observation unlabelled{observation.image, unlabelled_, observation.normals,
@@ -138,6 +164,9 @@ void ModelVerifier::Measure(ObjectList* list) {
                                   observed_.every_second_pixel(), &buffers_.evidence);
     object.evidence = ExtentEvidence(ends);
     object.covariance = CovarianceOf(object.solid, ends, evidence_[i], points_O, list->camera);
+    if (!IsSupported(object, evidence_[i], num_explaining_, config_.min_explained_px())) {
+      object.confidence = 0;
+    }
   }
 }
 

@@ -36,6 +36,7 @@ class ModelVerifier {
   FitBuffers buffers_;
   std::vector<RayEvidence> evidence_;
   PixelOwners owners_;
+  std::vector<uint8_t> num_explaining_;  // objects, per pixel
   PixelGrid unlabelled_;
 };
 

@@ -8,6 +8,7 @@ namespace {
 
 constexpr float kMaxTopStep = 0.006f;    // [m] in height between neighbours on one top face
 constexpr float kMaxSideStep = 0.012f;   // [m] in depth between neighbours on one side
+constexpr int kMaxGap = 3;               // pixels of the grid without depth beside an edge
 constexpr float kMinTopNormal = 0.90f;   // upward, of a normal on a top face
 constexpr float kMaxSideNormal = 0.50f;  // upward, of a normal on a side
 
@@ -92,6 +93,13 @@ class PartFinder {
 
   size_t Index(int u, int v) const { return static_cast<size_t>(v * columns_ + u); }
 
+  Eigen::Vector3f PointAt(int u, int v) const {
+    const PixelGrid& grid = observation_.grid;
+    return X_TC_ * (pixels_[Index(u, v)].depth *
+                    Eigen::Vector3f(grid.ray_x[static_cast<size_t>(u + window_.u_begin)],
+                                    grid.ray_y[static_cast<size_t>(v + window_.v_begin)], 1));
+  }
+
   void Measure(int u, int v, const std::vector<uint8_t>& is_marked) {
     const PixelGrid& grid = observation_.grid;
     const auto column = static_cast<size_t>(u + window_.u_begin);
@@ -100,8 +108,7 @@ class PartFinder {
     pixel.depth = grid.z[row * grid.stride + column];
     if (!is_marked[row * static_cast<size_t>(grid.columns) + column]) return;
     pixel.label = kMarked;
-    const Eigen::Vector3f ray(grid.ray_x[column], grid.ray_y[row], 1);
-    pixel.p_T = X_TC_ * (pixel.depth * ray);
+    pixel.p_T = PointAt(u, v);
     const Eigen::Vector3f n_C = observation_.normals.At(static_cast<int>(column) * grid.step,
                                                         static_cast<int>(row) * grid.step);
     const float up = X_TC_.linear().row(2).dot(n_C);
@@ -163,16 +170,19 @@ class PartFinder {
     }
   }
 
-  // Beside a pixel of a top face, there is something else, and not in front of it.
+  // True when the first that is seen beside a pixel of a top face is lower: the face ends there.
   bool IsFreeEdge(int u, int v) {
-    if (u == 0 || v == 0 || u + 1 == columns_ || v + 1 == rows_) return false;
+    return IsFree(u, v, 1, 0) || IsFree(u, v, -1, 0) || IsFree(u, v, 0, 1) || IsFree(u, v, 0, -1);
+  }
+
+  bool IsFree(int u, int v, int du, int dv) {
     const Pixel& pixel = pixels_[Index(u, v)];
-    for (const auto& [du, dv] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-      const Pixel& other = pixels_[Index(u + du, v + dv)];
-      if (other.label >= 0 && labels_.Root(other.label) == labels_.Root(pixel.label) &&
-          other.is_top())
-        continue;
-      if (other.depth > pixel.depth - kMaxSideStep) return true;
+    for (int step = 1; step <= kMaxGap; ++step) {
+      const int x = u + step * du, y = v + step * dv;
+      if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return false;
+      const Pixel& other = pixels_[Index(x, y)];
+      if (other.depth <= 0) continue;
+      return PointAt(x, y).z() < pixel.p_T.z() - kMaxTopStep;
     }
     return false;
   }
