@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "modules/feature_estimator/lanes.h"
+#include "modules/geometry/marked_pixels.h"
 
 namespace declutter {
 namespace {
@@ -34,38 +35,47 @@ DECLUTTER_LANES bool AreConnected(const PointImage& points, const Reach& reach, 
          (std::max(points.z[a], points.z[b]) < PointImage::kFar);
 }
 
-// Marks the elements from begin on that have a point connected with that of the next element.
-DECLUTTER_FOR_EACH_PROCESSOR void MarkConnectedWithNext(const PointImage& points,
-                                                        const Reach& reach, size_t begin,
-                                                        uint8_t* marked) {
-  const auto num = static_cast<size_t>(points.width);
+constexpr uint8_t kBegins = 1, kEnds = 2;
+
+// Marks in joined[1 .. num - 1] the elements from begin on that have a point connected with that of
+// the element before, and in edges those that a run begins or ends with.
+DECLUTTER_FOR_EACH_PROCESSOR void MarkEdges(const PointImage& points, const Reach& reach,
+                                            size_t begin, size_t num, uint8_t* joined,
+                                            uint8_t* edges) {
+  for (size_t i = 1; i < num; ++i) {
+    joined[i] = AreConnected(points, reach, begin + i - 1, begin + i);
+  }
+  const float* z = &points.z[begin];
   for (size_t i = 0; i < num; ++i) {
-    marked[i] = AreConnected(points, reach, begin + i, begin + i + 1);
+    const int begins = joined[i] > 0 ? 0 : kBegins, ends = joined[i + 1] > 0 ? 0 : kEnds;
+    edges[i] = static_cast<uint8_t>(z[i] < PointImage::kFar ? begins + ends : 0);
   }
 }
 
 // Cuts the rows into runs.
-void FindRuns(const PointImage& points, const Reach& reach, ComponentImage* image) {
+void FindRuns(const PointImage& points, const Reach& reach, Components* image) {
+  const auto width = static_cast<size_t>(points.width);
   image->runs.clear();
   image->first_run.clear();
-  image->goes_on.resize(static_cast<size_t>(points.width));
+  image->joined.assign(width + 1, 0);
+  image->edges.resize(width);
   for (int j = 0; j < points.height; ++j) {
     image->first_run.push_back(image->runs.size());
     const size_t begin = points.Index(0, j);
-    MarkConnectedWithNext(points, reach, begin, image->goes_on.data());
-    bool is_in_run = false;
-    for (size_t i = 0; i < image->goes_on.size(); ++i) {
-      const size_t p = begin + i;
-      if (!points.HasPoint(p)) continue;
-      if (!is_in_run) image->runs.push_back({p, p, points.z[p], points.z[p]});
-      PointRun& run = image->runs.back();
-      run.end = p + 1;
-      run.z_min = std::min(run.z_min, points.z[p]);
-      run.z_max = std::max(run.z_max, points.z[p]);
-      is_in_run = image->goes_on[i] != 0;
-    }
+    MarkEdges(points, reach, begin, width, image->joined.data(), image->edges.data());
+    ForEachMarked(image->edges.data(), 0, width, [&](size_t i) {
+      if ((image->edges[i] & kBegins) != 0) image->runs.push_back({begin + i, begin + i});
+      if ((image->edges[i] & kEnds) != 0) image->runs.back().end = begin + i + 1;
+    });
   }
   image->first_run.push_back(image->runs.size());
+  for (PointRun& run : image->runs) {
+    run.z_min = run.z_max = points.z[run.begin];
+    for (size_t p = run.begin + 1; p < run.end; ++p) {
+      run.z_min = std::min(run.z_min, points.z[p]);
+      run.z_max = std::max(run.z_max, points.z[p]);
+    }
+  }
 }
 
 // Disjoint sets of runs, each named by its first one, in given memory.
@@ -97,7 +107,7 @@ class DisjointSets {
 // different sets are near each other.
 class Joiner {
  public:
-  Joiner(const PointImage& points, const Connection& connection, ComponentImage* image)
+  Joiner(const PointImage& points, const Connection& connection, Components* image)
       : points_(points),
         reach_(connection),
         reach_px_(std::max(1, connection.reach_px / points.thinning)),
@@ -153,36 +163,31 @@ class Joiner {
   const PointImage& points_;
   Reach reach_;
   int reach_px_;
-  ComponentImage& image_;
+  Components& image_;
   DisjointSets sets_;
 };
 
 }  // namespace
 
-ComponentImage LabelComponents(const PointImage& points, const Connection& connection,
-                               int min_points, ComponentImage recycled) {
-  ComponentImage components = std::move(recycled);
+Components FindComponents(const PointImage& points, const Connection& connection, int min_points,
+                          Components recycled) {
+  Components components = std::move(recycled);
   components.num_components = 0;
-  components.label.assign(points.x.size(), -1);
   FindRuns(points, Reach(connection), &components);
   Joiner joiner(points, connection, &components);
   joiner.JoinAll();
 
-  const size_t num_runs = components.runs.size();
-  components.num_points.assign(num_runs, 0);
-  components.number.assign(num_runs, -1);
-  for (size_t i = 0; i < num_runs; ++i) {
-    const PointRun& run = components.runs[i];
-    components.num_points[joiner.sets().Find(i)] += static_cast<int32_t>(run.end - run.begin);
+  std::vector<PointRun>& runs = components.runs;
+  components.num_points.assign(runs.size(), 0);
+  for (size_t i = 0; i < runs.size(); ++i) {
+    components.num_points[joiner.sets().Find(i)] +=
+        static_cast<int32_t>(runs[i].end - runs[i].begin);
   }
-  for (size_t i = 0; i < num_runs; ++i) {
+  for (size_t i = 0; i < runs.size(); ++i) {
     const size_t root = joiner.sets().Find(i);
     if (components.num_points[root] < min_points) continue;
-    if (root == i) components.number[i] = components.num_components++;
-    const PointRun& run = components.runs[i];
-    std::fill(components.label.begin() + static_cast<std::ptrdiff_t>(run.begin),
-              components.label.begin() + static_cast<std::ptrdiff_t>(run.end),
-              components.number[root]);
+    if (root == i) runs[i].component = components.num_components++;
+    runs[i].component = runs[root].component;
   }
   return components;
 }

@@ -19,25 +19,24 @@ struct Connection {
 struct PointRun {
   size_t begin = 0, end = 0;
   float z_min = 0, z_max = 0;  // [m]
+  int32_t component = -1;      // -1: none
 };
 
-// Connected components (paper, section 3, step v).
-struct ComponentImage {
+// Connected components (paper, section 3, step v), numbered in the order of their first pixels.
+struct Components {
   int num_components = 0;
-  std::vector<int32_t>
-      label;  // 0 .. num_components - 1, in the order of their first pixels; -1: none
+  std::vector<PointRun> runs;  // of all points, in row-major order
 
-  // What labelling needs meanwhile: the runs of all rows, the first run of each row, the set of
-  // each run and its number of points and number.
-  std::vector<PointRun> runs;
+  // What finding them needs meanwhile: the first run of each row, the set of each run and its
+  // number of points.
   std::vector<size_t> first_run;
-  std::vector<int32_t> parent, num_points, number;
-  std::vector<uint8_t> goes_on;  // per element of a row
+  std::vector<int32_t> parent, num_points;
+  std::vector<uint8_t> joined, edges;  // where runs go on, and begin or end, in a row
 };
 
 // Components with fewer than min_points points are dropped. The margin of the points must be at
 // least reach_px wide.
-ComponentImage LabelComponents(const PointImage& points, const Connection& connection,
-                               int min_points, ComponentImage recycled = {});
+Components FindComponents(const PointImage& points, const Connection& connection, int min_points,
+                          Components recycled = {});
 
 }  // namespace declutter

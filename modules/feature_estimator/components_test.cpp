@@ -26,7 +26,14 @@ Tabletop TwoWalls(double step_m) {
 }
 
 int CountComponents(const Tabletop& tabletop, const Connection& connection, int min_points = 50) {
-  return LabelComponents(MakePointImage(tabletop, 0.01, 6), connection, min_points).num_components;
+  return FindComponents(MakePointImage(tabletop, 0.01, 6), connection, min_points).num_components;
+}
+
+int32_t ComponentAt(const Components& components, size_t element) {
+  for (const PointRun& run : components.runs) {
+    if (run.begin <= element && element < run.end) return run.component;
+  }
+  return -1;
 }
 
 void ClearColumns(int first, int last, Tabletop* tabletop) {
@@ -63,9 +70,9 @@ TEST(Components, WithTooFewPointsAreDropped) {
 
 TEST(Components, AreNumberedInTheOrderOfTheirFirstPixels) {
   const PointImage points = MakePointImage(TwoWalls(0.1), 0.01, 6);
-  const ComponentImage components = LabelComponents(points, kConnection, 50);
-  EXPECT_EQ(components.label[points.Index(0, 119)], 0);
-  EXPECT_EQ(components.label[points.Index(159, 0)], 1);
+  const Components components = FindComponents(points, kConnection, 50);
+  EXPECT_EQ(ComponentAt(components, points.Index(0, 119)), 0);
+  EXPECT_EQ(ComponentAt(components, points.Index(159, 0)), 1);
 }
 
 // Random holes, a depth step and noise: chains of points decide.
@@ -77,14 +84,15 @@ TEST(Components, AreTheEuclideanClustersOfPcl) {
     count = static_cast<uint16_t>(count == 0 ? 0 : count + generator() % 200);
   }
   const PointImage points = MakePointImage(tabletop, 0.01, 6);
-  const ComponentImage components = LabelComponents(points, {0.008, 0, 6}, 1);
+  const Components components = FindComponents(points, {0.008, 0, 6}, 1);
 
   auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   std::vector<std::set<int>> ours(static_cast<size_t>(components.num_components));
-  for (size_t i = 0; i < points.x.size(); ++i) {
-    if (!points.HasPoint(i)) continue;
-    ours[static_cast<size_t>(components.label[i])].insert(static_cast<int>(cloud->size()));
-    cloud->push_back({points.x[i], points.y[i], points.z[i]});
+  for (const PointRun& run : components.runs) {
+    for (size_t i = run.begin; i < run.end; ++i) {
+      ours[static_cast<size_t>(run.component)].insert(static_cast<int>(cloud->size()));
+      cloud->push_back({points.x[i], points.y[i], points.z[i]});
+    }
   }
   pcl::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
   extraction.setInputCloud(cloud);

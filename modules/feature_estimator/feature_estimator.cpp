@@ -14,13 +14,15 @@ const FeatureCloud& FeatureEstimator::Estimate(const Tabletop& tabletop) & {
   cloud_.height = tabletop.objects.camera.height;
   cloud_.thinning = tabletop.thinning;
   cloud_.num_components = 0;
-  cloud_.points.clear();
-  if (tabletop.planes.empty()) return cloud_;
+  if (tabletop.planes.empty()) {
+    cloud_.points.clear();
+    return cloud_;
+  }
   EstimateFeatures(tabletop);
   const Connection connection{config_.component_distance_m(), config_.component_distance_per_z2(),
                               config_.component_reach_px()};
   components_ =
-      LabelComponents(points_, connection, config_.min_component_points(), std::move(components_));
+      FindComponents(points_, connection, config_.min_component_points(), std::move(components_));
   FillCloud();
   return cloud_;
 }
@@ -49,19 +51,24 @@ void FeatureEstimator::EstimateFeatures(const Tabletop& tabletop) {
 
 void FeatureEstimator::FillCloud() {
   const bool is_paper = cloud_.mode == FeatureMode::kPaper;
+  size_t num_points = 0;
+  for (const PointRun& run : components_.runs) {
+    num_points += run.component >= 0 ? run.end - run.begin : 0;
+  }
   cloud_.num_components = components_.num_components;
-  for (int j = 0; j < points_.height; ++j) {
-    for (int i = 0; i < points_.width; ++i) {
-      const size_t p = points_.Index(i, j);
-      if (components_.label[p] < 0) continue;
-      const int u = points_.first_u + i * points_.thinning;
-      const int v = points_.first_v + j * points_.thinning;
-      cloud_.points.push_back({v * cloud_.width + u,
-                               {normals_.x[p], normals_.y[p], normals_.z[p]},
-                               is_paper ? 0.0F : curvature_.kappa[p],
-                               normals_.curvature[p],
-                               is_paper ? radius_.r_min[p] : 0.0F,
-                               components_.label[p]});
+  cloud_.points.resize(num_points);
+  FeaturePoint* point = cloud_.points.data();
+  for (const PointRun& run : components_.runs) {
+    if (run.component < 0) continue;
+    const auto [column, row] = points_.PixelOf(run.begin);
+    int32_t pixel = row * cloud_.width + column;
+    for (size_t p = run.begin; p < run.end; ++p, pixel += points_.thinning) {
+      *point++ = {pixel,
+                  {normals_.x[p], normals_.y[p], normals_.z[p]},
+                  is_paper ? 0.0F : curvature_.kappa[p],
+                  normals_.curvature[p],
+                  is_paper ? radius_.r_min[p] : 0.0F,
+                  run.component};
     }
   }
 }

@@ -31,7 +31,7 @@ class FeatureEstimator {
   NormalImage normals_;
   CurvatureImage curvature_;  // default mode
   RadiusImage radius_;        // paper mode
-  ComponentImage components_;
+  Components components_;
   FeatureCloud cloud_;
 };
 

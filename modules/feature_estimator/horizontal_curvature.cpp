@@ -20,9 +20,36 @@ struct SideImage {
   CurvatureImage& curvature;
 };
 
+// Of elements [begin, begin + num). Where the normal is unknown or vertical, tangents mean nothing.
+DECLUTTER_FOR_EACH_PROCESSOR void SelectSidesOfRow(const SideImage& sides, size_t begin, size_t num,
+                                                   const float* up_C, float max_vertical) {
+  const float* const x = &sides.points.x[begin];
+  const float* const nx = &sides.normals.x[begin];
+  const float* const ny = &sides.normals.y[begin];
+  const float* const nz = &sides.normals.z[begin];
+  float* const side_x = &sides.curvature.side_x[begin];
+  float* const tangent_x = &sides.curvature.tangent_x[begin];
+  float* const tangent_y = &sides.curvature.tangent_y[begin];
+  float* const tangent_z = &sides.curvature.tangent_z[begin];
+  const float ux = up_C[0], uy = up_C[1], uz = up_C[2], far = PointImage::kFar;
+#pragma GCC ivdep
+  for (size_t i = 0; i < num; ++i) {
+    const float px = x[i];
+    const float vertical = std::abs(nx[i] * ux + (ny[i] * uy + nz[i] * uz));
+    const float tx = uy * nz[i] - uz * ny[i];
+    const float ty = uz * nx[i] - ux * nz[i];
+    const float tz = ux * ny[i] - uy * nx[i];
+    const float norm = std::sqrt(tx * tx + (ty * ty + tz * tz));
+    tangent_x[i] = tx / norm;
+    tangent_y[i] = ty / norm;
+    tangent_z[i] = tz / norm;
+    // The norm of an unknown normal's tangent is 0.
+    side_x[i] = (vertical <= max_vertical) & (norm > 0) ? px : far;
+  }
+}
+
 void SelectSides(const Eigen::Vector3f& up_C, double max_tilt_rad, SideImage* sides) {
   const PointImage& points = sides->points;
-  const NormalImage& normals = sides->normals;
   CurvatureImage& curvature = sides->curvature;
   curvature.side_x.assign(points.x.size(), PointImage::kFar);
   for (auto* plane : {&curvature.tangent_x, &curvature.tangent_y, &curvature.tangent_z}) {
@@ -30,16 +57,8 @@ void SelectSides(const Eigen::Vector3f& up_C, double max_tilt_rad, SideImage* si
   }
   const float max_vertical = static_cast<float>(std::sin(max_tilt_rad));
   for (int j = 0; j < points.height; ++j) {
-    for (size_t i = points.Index(0, j); i < points.Index(points.width, j); ++i) {
-      if (!normals.IsKnown(i)) continue;
-      const Eigen::Vector3f normal(normals.x[i], normals.y[i], normals.z[i]);
-      if (std::abs(normal.dot(up_C)) > max_vertical) continue;
-      const Eigen::Vector3f tangent = up_C.cross(normal).normalized();
-      curvature.tangent_x[i] = tangent.x();
-      curvature.tangent_y[i] = tangent.y();
-      curvature.tangent_z[i] = tangent.z();
-      curvature.side_x[i] = points.x[i];
-    }
+    SelectSidesOfRow(*sides, points.Index(0, j), static_cast<size_t>(points.width), up_C.data(),
+                     max_vertical);
   }
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "modules/geometry/for_each_processor.h"
+
 namespace declutter {
 namespace {
-
-// Objects nearer than a sensor measures would ask for windows without bound.
 
 // A neighbour at P + e, |e| <= r, is seen |e_xy - (P_xy / z) e_z| / (z + e_z) away from P at z = 1,
 // at most r sqrt(1 + |P_xy|^2 / z^2) / (z - r).
@@ -26,11 +26,20 @@ struct Bounds {
   uint16_t min_count = 0;
 };
 
+// The least count - 1 of every step-th pixel: where nothing is measured, it is the largest.
+DECLUTTER_FOR_EACH_PROCESSOR uint16_t MinBeforeZero(const uint16_t* counts, int num, int step) {
+  uint16_t min_before_zero = 0xFFFF;
+  for (int i = 0; i < num; i += step) {
+    min_before_zero = std::min(min_before_zero, static_cast<uint16_t>(counts[i] - 1));
+  }
+  return min_before_zero;
+}
+
 // Of every step-th pixel.
 Bounds BoundsOf(const DepthImage& image, int step) {
   Bounds bounds;
   bounds.min_u = image.camera.width;
-  unsigned min_before_zero = 0xFFFF;  // count - 1: where nothing is measured, the largest
+  uint16_t min_before_zero = 0xFFFF;
   for (int v = 0; v < (image.empty() ? 0 : image.camera.height); v += step) {
     const uint16_t* row = RowOf(image, v);
     const int end = (image.camera.width - 1) / step * step + step;
@@ -38,9 +47,7 @@ Bounds BoundsOf(const DepthImage& image, int step) {
     while (first < end && row[first] == 0) first += step;
     if (first == end) continue;
     while (row[last] == 0) last -= step;
-    for (int u = first; u <= last; u += step) {
-      min_before_zero = std::min<unsigned>(min_before_zero, static_cast<uint16_t>(row[u] - 1));
-    }
+    min_before_zero = std::min(min_before_zero, MinBeforeZero(row + first, last - first + 1, step));
     bounds.min_u = std::min(bounds.min_u, first);
     bounds.max_u = std::max(bounds.max_u, last);
     if (bounds.max_v < 0) bounds.min_v = v;
@@ -61,6 +68,33 @@ float MaxSlope(const Bounds& bounds, const DepthImage& image, float radius_m) {
     }
   }
   return max_slope;
+}
+
+// num elements of row j from column i on.
+void FillFar(int i, int num, int j, PointImage* points) {
+  const auto begin = static_cast<std::ptrdiff_t>(points->Index(0, 0)) + j * points->stride + i;
+  for (auto* plane : {&points->x, &points->y, &points->z}) {
+    std::fill_n(plane->begin() + begin, num, PointImage::kFar);
+  }
+}
+
+// The row of points that begins with this element, from every step-th count.
+DECLUTTER_FOR_EACH_PROCESSOR void FillRow(const uint16_t* counts, int step, float scale,
+                                          float ray_y, size_t begin, PointImage* points) {
+  const float* ray_x = points->ray_x.data();
+  float* const x = &points->x[begin];
+  float* const y = &points->y[begin];
+  float* const z = &points->z[begin];
+  const int width = points->width;
+  const float far = PointImage::kFar;
+#pragma GCC ivdep
+  for (int i = 0; i < width; ++i) {
+    const uint16_t count = counts[i * step];
+    const float depth = scale * static_cast<float>(count);
+    x[i] = count > 0 ? ray_x[i] * depth : far;
+    y[i] = count > 0 ? ray_y * depth : far;
+    z[i] = count > 0 ? depth : far;
+  }
 }
 
 }  // namespace
@@ -90,26 +124,21 @@ PointImage MakePointImage(const Tabletop& tabletop, double max_radius_m, int min
   points.stride = points.width + 2 * points.margin + PointImage::kLanes;
   const size_t size =
       static_cast<size_t>(points.stride) * static_cast<size_t>(points.height + 2 * points.margin);
-  for (auto* plane : {&points.x, &points.y, &points.z}) plane->assign(size, PointImage::kFar);
-  std::vector<float> ray_x;
+  for (auto* plane : {&points.x, &points.y, &points.z}) plane->resize(size);
+  points.ray_x.clear();
   for (int i = 0; i < points.width; ++i) {
-    ray_x.push_back(static_cast<float>(camera.Ray(bounds.min_u + i * k, 0).x()));
+    points.ray_x.push_back(static_cast<float>(camera.Ray(bounds.min_u + i * k, 0).x()));
   }
-  const auto scale = static_cast<float>(image.depth_scale_m);
-  for (int j = 0; j < points.height; ++j) {
-    const int v = bounds.min_v + j * k;
-    const uint16_t* counts = RowOf(image, v) + bounds.min_u;
-    const auto ray_y = static_cast<float>(camera.Ray(0, v).y());
-    float* const x = &points.x[points.Index(0, j)];
-    float* const y = &points.y[points.Index(0, j)];
-    float* const z = &points.z[points.Index(0, j)];
-    for (int i = 0; i < points.width; ++i) {
-      if (counts[i * k] == 0) continue;
-      const float depth = scale * static_cast<float>(counts[i * k]);
-      x[i] = ray_x[static_cast<size_t>(i)] * depth;
-      y[i] = ray_y * depth;
-      z[i] = depth;
+  for (int j = -points.margin; j < points.height + points.margin; ++j) {
+    if (j < 0 || j >= points.height) {
+      FillFar(-points.margin, points.stride, j, &points);
+      continue;
     }
+    const int v = bounds.min_v + j * k;
+    FillFar(-points.margin, points.margin, j, &points);
+    FillRow(RowOf(image, v) + bounds.min_u, k, static_cast<float>(image.depth_scale_m),
+            static_cast<float>(camera.Ray(0, v).y()), points.Index(0, j), &points);
+    FillFar(points.width, points.margin + PointImage::kLanes, j, &points);
   }
   return points;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "modules/geometry/tabletop.h"
@@ -27,12 +28,19 @@ struct PointImage {
   int margin = 0;              // [px] at all sides
   int stride = 0;              // elements from one row to the next
   std::vector<float> x, y, z;  // [m] kFar where there is no point
+  std::vector<float> ray_x;    // of each column: x / z
 
   bool empty() const { return width == 0; }
   // Element of grid pixel (i, j), 0 <= i < width, 0 <= j < height.
   size_t Index(int i, int j) const {
     return static_cast<size_t>(j + margin) * static_cast<size_t>(stride) +
            static_cast<size_t>(i + margin);
+  }
+  // Image column and row [px] of an element of the grid.
+  std::pair<int, int> PixelOf(size_t index) const {
+    const int i = static_cast<int>(index) % stride - margin;
+    const int j = static_cast<int>(index) / stride - margin;
+    return {first_u + i * thinning, first_v + j * thinning};
   }
   bool HasPoint(size_t index) const { return x[index] < kFar; }
 };

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "modules/geometry/edge_direction.h"
 #include "modules/hough_segmenter/joining.h"
 #include "modules/hough_segmenter/rectangle.h"
 #include "modules/hough_segmenter/solid_completion.h"
@@ -32,7 +33,9 @@ void SolidCompletion::AddRectangles(const TopPatch& patch) {
     rectangles_.push_back(rectangle_finder_.Around(patch, axis));
     SnapToFaces(attached_, &rectangles_.back());
   };
-  add_around(MinimumAreaAxis(patch));
+  // Where something in front cuts a face off, the smallest rectangle around the rest lies askew.
+  const auto direction = EdgeDirection(patch.free_edge);
+  add_around(direction ? *direction : MinimumAreaAxis(patch));
   for (const Face* face : attached_) add_around(face->model.tangent());
 }
 

@@ -9,7 +9,7 @@
 namespace declutter {
 namespace {
 
-constexpr float kSameHeight = 0.008f;  // [m] between the parts of one top face
+constexpr float kSameHeight = 0.005f;  // [m] between the parts of one top face
 
 // Faces on one line with a gap between them, as an occluder in front leaves them, as one.
 std::optional<Face> Join(const Face& a, const Face& b, float max_extent) {
@@ -67,7 +67,12 @@ void JoinPatches(const TopPatches& tops, float max_extent, size_t max_joined, To
       }
       TopPatch& both = joined->Add();
       both = tops[i];
+      const auto num_i = static_cast<float>(tops[i].points.size());
+      const auto num_j = static_cast<float>(tops[j].points.size());
+      both.height = (num_i * tops[i].height + num_j * tops[j].height) / (num_i + num_j);
       both.points.Append(tops[j].points);
+      both.free_edge.insert(both.free_edge.end(), tops[j].free_edge.begin(),
+                            tops[j].free_edge.end());
       both.hull.insert(both.hull.end(), tops[j].hull.begin(), tops[j].hull.end());
     }
   }

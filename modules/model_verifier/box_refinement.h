@@ -7,7 +7,7 @@
 namespace declutter {
 
 // Moves the faces of a box that are seen onto their points, turns it about z of O with them, and
-// moves edges behind which no face is seen to where the area of the face in front of them ends.
+// moves edges behind which no face is seen to where the faces beside them end.
 Solid RefineBox(Solid solid, const Observation& observation, FitPoints* points);
 
 }  // namespace declutter

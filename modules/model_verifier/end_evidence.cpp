@@ -90,6 +90,7 @@ SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
     return ends;
   }
   const auto num_points = PointsOnFaces(solid, evidence, points_O);
+  const Eigen::Vector3d camera_O = solid.X_CO.inverse().translation();
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
       const auto a = static_cast<size_t>(axis);
@@ -99,7 +100,7 @@ SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
       const bool was_assumed = given[a] == Evidence::kAssumed;
       if (axis == 2 && side == 0) {
         end = was_assumed ? EndEvidence::kAssumed : EndEvidence::kSupport;
-      } else if (num_points[a][s] >= kMinFacePoints) {
+      } else if (num_points[a][s] >= kMinFacePoints && FacesCamera(solid, camera_O, axis, sign)) {
         end = EndEvidence::kFace;
       } else if (axis == 2 || (!was_assumed && IsEdgeSeen(solid, observation.image, axis, sign))) {
         end = EndEvidence::kEdge;

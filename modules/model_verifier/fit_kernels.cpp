@@ -14,7 +14,7 @@ namespace HWY_NAMESPACE {
 // Measurements near a solid, in O.
 struct NearPoints {
   Vector3 p, n, ray;
-  Vector sigma, area;
+  Vector sigma;
   Mask has_normal;
 };
 
@@ -71,7 +71,6 @@ HWY_INLINE void AppendPoints(const NearPoints& points, const hn::Vec<Ints>& bits
     append(vectors[k]->z, to[k][2]);
   }
   append(points.sigma, arrays->sigma);
-  append(points.area, arrays->area);
   Append(i32, bits, is_on, arrays->surfaces + arrays->num);
   arrays->num += hn::CountTrue(i32, is_on);
 }
@@ -96,7 +95,6 @@ HWY_INLINE void FindInPixels(const RaySolid& solid, const RayWindow& window,
   const auto length =
       hn::Sqrt(hn::Add(hn::Add(hn::Mul(r.x, r.x), hn::Mul(r.y, r.y)), Constant(1.0f)));
   points.sigma = hn::Mul(hn::Mul(Constant(limits.sigma_per_square), square), length);
-  points.area = hn::Mul(hn::Mul(Constant(limits.area_per_square), square), length);
   points.ray = {hn::Div(ray_O.x, length), hn::Div(ray_O.y, length), hn::Div(ray_O.z, length)};
   const Vector3 n_C = NormalsAt(window, u, v);
   points.has_normal = IsKnown(n_C);

@@ -16,7 +16,6 @@ struct FitArrays {
   float* n[3] = {};             // measured unit normal, zero: unknown
   float* ray[3] = {};           // unit direction from the camera to the point
   float* sigma = nullptr;       // [m] standard deviation along the ray
-  float* area = nullptr;        // [m^2] of the pixels that it stands for, across the ray
   int32_t* surfaces = nullptr;  // bits, see SurfaceBit
   size_t num = 0;
 };
@@ -35,7 +34,6 @@ struct FitLimits {
   float min_incidence_cos = 0;    // of the ray to a surface: it is not seen edge-on
   float min_normal_cos = 0;       // of a measured normal and the surface's
   float end_margin_m = 0;         // of the side of a cylinder, at its ends
-  float area_per_square = 0;      // [1] of a pixel, over its squared depth
 };
 
 // Fills in the points of a window that lie on a surface of the solid, except its lower end: a face

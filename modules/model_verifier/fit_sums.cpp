@@ -55,22 +55,38 @@ HWY_INLINE Vector Weight(const FitArrays& points, const Vector& cosine, size_t i
   return hn::Div(Constant(1.0f), hn::Mul(sigma, sigma));
 }
 
+// Of the points from i on that are on a face, those for which another one is nearer.
+HWY_INLINE Mask IsNearerTo(int other_axis, const FitArrays& points, const FaceRegion& region,
+                           const Vector& distance, size_t i) {
+  const auto p = Load(points.p, other_axis, i);
+  const auto other = hn::Abs(hn::Sub(hn::Abs(p), Constant(region.half_size[other_axis])));
+  const int32_t bits = SurfaceBit(other_axis, 1) | SurfaceBit(other_axis, -1);
+  return hn::And(IsOn(points, bits, i), hn::Lt(other, distance));
+}
+
 FaceSums SumFace(const FitArrays& points, const FaceRegion& region) {
   const Floats f;
   const int axis = region.axis;
   const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
+  const float place = static_cast<float>(region.sign) * region.half_size[axis];
+  const auto is_within = [&](int k, size_t i) {
+    return hn::Le(hn::Abs(Load(points.p, k, i)),
+                  Constant(region.half_size[k] - region.edge_margin));
+  };
   FaceSums sums;
   Sum w, wx, wl, wll, wlx;
   for (size_t i = 0; i < points.num; i += hn::Lanes(f)) {
-    const auto is_on =
-        hn::And(IsOn(points, SurfaceBit(axis, region.sign), i),
-                hn::And(hn::Le(hn::Abs(Load(points.p, a, i)), Constant(region.inner[a])),
-                        hn::Le(hn::Abs(Load(points.p, b, i)), Constant(region.inner[b]))));
+    auto is_on = hn::And(IsOn(points, SurfaceBit(axis, region.sign), i),
+                         hn::And(is_within(a, i), is_within(b, i)));
     if (hn::AllFalse(f, is_on)) continue;
+    const auto from_face = hn::Sub(Load(points.p, axis, i), Constant(place));
+    const auto distance = hn::Abs(from_face);
+    is_on = hn::AndNot(hn::Or(IsNearerTo(a, points, region, distance, i),
+                              IsNearerTo(b, points, region, distance, i)),
+                       is_on);
     sums.num += Count(is_on);
     const auto weight = hn::IfThenElseZero(is_on, Weight(points, Load(points.ray, axis, i), i));
-    const auto x =
-        hn::IfThenElseZero(is_on, hn::Sub(Load(points.p, axis, i), Constant(region.place)));
+    const auto x = hn::IfThenElseZero(is_on, from_face);
     w.Add(i, weight);
     wx.Add(i, hn::Mul(weight, x));
     if (axis == 2) continue;
@@ -88,35 +104,6 @@ FaceSums SumFace(const FitArrays& points, const FaceRegion& region) {
   sums.wll = wll.Total();
   sums.wlx = wlx.Total();
   return sums;
-}
-
-StripAreas SumStrips(const FitArrays& points, const FaceStrips& strips) {
-  const Floats f;
-  const int across = 3 - strips.face_axis - strips.axis;
-  StripAreas areas;
-  Sum reference, beyond;
-  for (size_t i = 0; i < points.num; i += hn::Lanes(f)) {
-    const auto is_on =
-        hn::And(IsOn(points, SurfaceBit(strips.face_axis, strips.face_sign), i),
-                hn::Le(hn::Abs(Load(points.p, across, i)), Constant(strips.half_across)));
-    if (hn::AllFalse(f, is_on)) continue;
-    areas.num += Count(is_on);
-    const auto x =
-        hn::Mul(Constant(static_cast<float>(strips.sign)), Load(points.p, strips.axis, i));
-    const auto is_beyond_begin = hn::Gt(x, Constant(strips.begin));
-    const auto is_reference =
-        hn::AndNot(is_beyond_begin, hn::And(is_on, hn::Gt(x, Constant(strips.reference_begin))));
-    const auto is_beyond =
-        hn::And(hn::And(is_on, is_beyond_begin), hn::Lt(x, Constant(strips.end)));
-    const auto area =
-        hn::Div(hn::LoadU(f, points.area + i), hn::Abs(Load(points.ray, strips.face_axis, i)));
-    areas.num_reference += Count(is_reference);
-    reference.Add(i, hn::IfThenElseZero(is_reference, area));
-    beyond.Add(i, hn::IfThenElseZero(is_beyond, area));
-  }
-  areas.reference = reference.Total();
-  areas.beyond = beyond.Total();
-  return areas;
 }
 
 SideSums SumSide(const FitArrays& points, const SideRegion& region) {
@@ -204,7 +191,6 @@ namespace declutter {
 namespace {
 
 HWY_EXPORT(SumFace);
-HWY_EXPORT(SumStrips);
 HWY_EXPORT(SumSide);
 HWY_EXPORT(SumDisc);
 
@@ -212,10 +198,6 @@ HWY_EXPORT(SumDisc);
 
 FaceSums SumFace(const FitArrays& points, const FaceRegion& region) {
   return HWY_DYNAMIC_DISPATCH(SumFace)(points, region);
-}
-
-StripAreas SumStrips(const FitArrays& points, const FaceStrips& strips) {
-  return HWY_DYNAMIC_DISPATCH(SumStrips)(points, strips);
 }
 
 SideSums SumSide(const FitArrays& points, const SideRegion& region) {

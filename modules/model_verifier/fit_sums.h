@@ -7,12 +7,13 @@
 // inverse variances of the distance to the surface.
 namespace declutter {
 
-// Points of a face whose coordinates along the other axes are at most `inner` [m].
+// Points of a face of a box: those at least edge_margin inside its edges, of which it is the
+// nearest face.
 struct FaceRegion {
   int axis = 0;
   int sign = 0;
-  float place = 0;  // [m] coordinate of the face along its axis
-  float inner[3] = {};
+  float half_size[3] = {};  // [m] of the box
+  float edge_margin = 0;    // [m]
 };
 
 // x: [m] from the face to a point, along its axis. lever: by how much a yaw of the solid by 1 rad
@@ -23,25 +24,6 @@ struct FaceSums {
 };
 
 FaceSums SumFace(const FitArrays& points, const FaceRegion& region);
-
-// Strips of a face across one of its axes, along which coordinates are taken as `sign` times those
-// of O. Points farther than half_across from the middle of the other axis do not count.
-struct FaceStrips {
-  int face_axis = 0, face_sign = 0;
-  int axis = 0, sign = 0;
-  float half_across = 0;      // [m]
-  float reference_begin = 0;  // [m] where the first strip begins,
-  float begin = 0, end = 0;   // where it ends and the second one begins, and where that ends
-};
-
-struct StripAreas {
-  int num = 0;            // points of the face
-  int num_reference = 0;  // in the first strip
-  double reference = 0;   // [m^2] area of the first
-  double beyond = 0;      // and of the second
-};
-
-StripAreas SumStrips(const FitArrays& points, const FaceStrips& strips);
 
 // The side of a cylinder about (x, y) of O.
 struct SideRegion {

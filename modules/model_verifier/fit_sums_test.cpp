@@ -16,7 +16,7 @@ constexpr size_t kNum = 4003;  // no multiple of lanes
 
 // Points anywhere around a solid, on any of its surfaces; behind the last one is what was there.
 struct RandomPoints {
-  std::vector<float> buffer = std::vector<float>(11 * (kNum + kRayPadding), NAN);
+  std::vector<float> buffer = std::vector<float>(10 * (kNum + kRayPadding), NAN);
   std::vector<int32_t> surfaces = std::vector<int32_t>(kNum + kRayPadding, -1);
   FitArrays arrays;
 
@@ -35,7 +35,6 @@ struct RandomPoints {
     for (float*& n : arrays.n) n = fill(direction);
     for (float*& ray : arrays.ray) ray = fill(direction);
     arrays.sigma = fill(size);
-    arrays.area = fill(size);
     std::generate_n(surfaces.begin(), kNum, [&] { return bits(engine); });
     for (size_t i = 0; i < kNum; i += 5) {
       for (float* n : arrays.n) n[i] = 0;
@@ -51,10 +50,10 @@ struct RandomPoints {
 };
 
 void ExpectNear(double sum, double expected) {
-  EXPECT_NEAR(sum, expected, 1e-5 * std::abs(expected) + 1e-3);
+  EXPECT_NEAR(sum, expected, 1e-5 * std::abs(expected) + 0.1);  // a point weighs 1e4 or more
 }
 
-FaceRegion FaceAcross(int axis) { return {axis, -1, -0.05f, {0.08f, 0.07f, 0.06f}}; }
+FaceRegion FaceAcross(int axis) { return {axis, -1, {0.09f, 0.08f, 0.07f}, 0.01f}; }
 
 TEST(FitSums, OfAFaceAreThoseOfItsPoints) {
   const RandomPoints points;
@@ -64,12 +63,17 @@ TEST(FitSums, OfAFaceAreThoseOfItsPoints) {
     FaceSums expected;
     for (size_t i = 0; i < kNum; ++i) {
       bool is_within = (a.surfaces[i] & SurfaceBit(axis, -1)) != 0;
+      const float distance = std::abs(a.p[axis][i] + region.half_size[axis]);
       for (int k = 0; k < 3; ++k) {
-        is_within &= k == axis || std::abs(a.p[k][i]) <= region.inner[k];
+        if (k == axis) continue;
+        is_within &= std::abs(a.p[k][i]) <= region.half_size[k] - 0.01f;
+        const bool is_on_other = (a.surfaces[i] & (SurfaceBit(k, 1) | SurfaceBit(k, -1))) != 0;
+        is_within &=
+            !is_on_other || std::abs(std::abs(a.p[k][i]) - region.half_size[k]) >= distance;
       }
       if (!is_within) continue;
       const double w = points.Weight(a.ray[axis][i], i);
-      const double x = a.p[axis][i] - region.place;
+      const double x = a.p[axis][i] + region.half_size[axis];
       const double lever = axis == 0 ? a.p[1][i] : axis == 1 ? -a.p[0][i] : 0;
       ++expected.num;
       expected.w += w;
@@ -87,43 +91,6 @@ TEST(FitSums, OfAFaceAreThoseOfItsPoints) {
     ExpectNear(sums.wll, expected.wll);
     ExpectNear(sums.wlx, expected.wlx);
   }
-}
-
-FaceStrips Strips() {
-  FaceStrips strips;
-  strips.face_axis = 2;
-  strips.face_sign = 1;
-  strips.axis = 0;
-  strips.sign = -1;
-  strips.half_across = 0.06f;
-  strips.reference_begin = -0.02f;
-  strips.begin = 0.03f;
-  strips.end = 0.08f;
-  return strips;
-}
-
-TEST(FitSums, OfStripsAreTheAreasOfTheirPoints) {
-  const RandomPoints points;
-  const FitArrays& a = points.arrays;
-  StripAreas expected;
-  for (size_t i = 0; i < kNum; ++i) {
-    if ((a.surfaces[i] & SurfaceBit(2, 1)) == 0 || std::abs(a.p[1][i]) > 0.06f) continue;
-    const double area = a.area[i] / std::abs(a.ray[2][i]);
-    const float x = -a.p[0][i];
-    ++expected.num;
-    if (x > -0.02f && x <= 0.03f) {
-      ++expected.num_reference;
-      expected.reference += area;
-    } else if (x > 0.03f && x < 0.08f) {
-      expected.beyond += area;
-    }
-  }
-  const StripAreas areas = SumStrips(a, Strips());
-  EXPECT_EQ(areas.num, expected.num);
-  EXPECT_EQ(areas.num_reference, expected.num_reference);
-  EXPECT_GT(areas.num_reference, 30);
-  ExpectNear(areas.reference, expected.reference);
-  ExpectNear(areas.beyond, expected.beyond);
 }
 
 SideRegion Side() { return {0.01f, -0.02f, 0.06f, 0.005f, 3, 0.2f, 0.3f}; }
@@ -194,13 +161,11 @@ TEST(FitSums, AreTheSameWithEveryInstructionSet) {
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().DeInit();
     const FaceSums face = SumFace(points.arrays, FaceAcross(1));
-    const StripAreas strips = SumStrips(points.arrays, Strips());
     const SideSums side = SumSide(points.arrays, Side());
     const DiscSums disc = SumDisc(points.arrays, {0.01f, -0.02f, 0.05f, 0.03f});
-    const std::vector<double> sums = {
-        face.w,        face.wx, face.wl,  face.wll, face.wlx,  strips.reference,
-        strips.beyond, side.w,  side.nx,  side.ny,  side.nxnx, side.nxny,
-        side.nyny,     side.r,  side.nxr, side.nyr, disc.w,    disc.wz};
+    const std::vector<double> sums = {face.w,   face.wx,  face.wl,   face.wll,  face.wlx,  side.w,
+                                      side.nx,  side.ny,  side.nxnx, side.nxny, side.nyny, side.r,
+                                      side.nxr, side.nyr, disc.w,    disc.wz};
     if (!first) first = sums;
     EXPECT_EQ(sums, *first) << hwy::TargetName(target);
   }

@@ -4,8 +4,10 @@
 
 #include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/box_splitting.h"
+#include "modules/model_verifier/late_proposals.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/shared_space.h"
+#include "modules/model_verifier/support_settling.h"
 #include "modules/model_verifier/systematic_misfit.h"
 
 namespace declutter {
@@ -14,7 +16,7 @@ namespace {
 constexpr size_t kMaxObjects = 255;       // ids fit the label image
 constexpr int kMaxRounds = 3;             // of exchanges
 constexpr double kMinImprovement = 1.02;  // of the gain, for an exchange
-constexpr size_t kMaxParts = 64;          // of boxes that are split, in one frame
+constexpr size_t kMaxLate = 64;           // candidates beside the hypotheses, in one frame
 constexpr int8_t kUnknown = -1;
 
 double MisfitShareOf(const Candidate& candidate, const Observation& observation,
@@ -37,16 +39,96 @@ void ModelSelection::Run(const std::vector<Hypothesis>& hypotheses, const Observ
   num_explaining_.assign(static_cast<size_t>(observation.grid.num_pixels()), 0);
   selected_.clear();
   AddCandidates(hypotheses, input);
-  while (const auto best = Best(input)) {
-    candidates_[*best].selection_gain = candidates_[*best].gain;
-    Select(*best);
-  }
+  SelectBest(input);
+  ProposeAboveBlockers(input);
+  ProposeForUnexplained(input);
   for (int round = 0; round < kMaxRounds && Exchange(input); ++round) {
   }
 }
 
+void ModelSelection::SelectBest(const Input& input) {
+  while (const auto best = Best(input)) {
+    candidates_[*best].selection_gain = candidates_[*best].gain;
+    Select(*best);
+  }
+}
+
+// Tries candidates that reach down into selected ones as what stands on those: a side that goes on
+// below may have been taken for theirs.
+void ModelSelection::ProposeAboveBlockers(const Input& input) {
+  constexpr double kMinHeight = 0.015;  // [m] that can be grasped
+  const Plane& support = input.observation.support;
+  const auto stands = [&](const Solid& solid) {
+    return solid.X_CO.linear().col(2).dot(support.normal) > 0.99;
+  };
+  const size_t num = num_candidates_;
+  for (size_t i = 0; i < num; ++i) {
+    const Candidate& candidate = candidates_[i];
+    if (candidate.is_out || candidate.is_selected || candidate.num_blockers == 0 ||
+        !stands(candidate.hypothesis.solid)) {
+      continue;
+    }
+    const double top = TopOf(candidate.hypothesis.solid, support);
+    double floor = top - candidate.hypothesis.solid.height();
+    const double bottom = floor;
+    double rivals_gain = 0;
+    for (const size_t blocker : BlockersOf(i)) {
+      const Solid& solid = candidates_[blocker].hypothesis.solid;
+      const double top_below = TopOf(solid, support);
+      if (stands(solid) && top_below < top - kMinHeight) {
+        floor = std::max(floor, top_below);
+      } else {
+        rivals_gain += candidates_[blocker].selection_gain;
+      }
+    }
+    if (floor == bottom ||
+        candidate.evidence.Balance() < std::max(config_.min_explained_px(), rivals_gain)) {
+      continue;
+    }
+    Hypothesis upper = candidate.hypothesis;
+    upper.solid.X_CO = upper.solid.X_CO * Eigen::Translation3d(0, 0, 0.5 * (floor - bottom));
+    upper.solid.size.z() = top - floor;
+    AddRefined(upper, config_.min_explained_px(), input);
+  }
+  SelectBest(input);
+}
+
+// Tries solids over what no selected one explains. Nothing voted for them, so that they must
+// explain most of what they were laid over, as well as noise allows, and little of what others do.
+void ModelSelection::ProposeForUnexplained(const Input& input) {
+  constexpr double kMinShare =
+      0.5;  // of the points it was laid over that a solid explains, before and after it is refined
+  constexpr double kMinFit = 0.8;       // of a pixel: noise leaves 8 / 9
+  constexpr double kMinUnshared = 0.6;  // of what speaks for it, from pixels of its own
+  std::vector<Solid> selected;
+  std::vector<uint8_t> is_explained = num_explaining_;
+  for (const size_t i : selected_) {
+    const Hypothesis& hypothesis = candidates_[i].hypothesis;
+    selected.push_back(hypothesis.solid);
+    if (hypothesis.evidence[2] != Evidence::kAssumed) continue;
+    // What is below may be its own lower part.
+    const Solid longer = ExtendedToSupport(hypothesis.solid, input.observation.support);
+    for (const int32_t pixel : CastRays(longer, input.observation).explained) {
+      is_explained[static_cast<size_t>(pixel)] = 1;
+    }
+  }
+  for (const LateProposal& proposal : declutter::ProposeForUnexplained(
+           selected, is_explained, config_.min_explained_px(), input.observation)) {
+    const auto added = AddRefined(proposal.hypothesis, kMinShare * proposal.num_px, input);
+    if (!added) continue;
+    Candidate& candidate = candidates_[*added];
+    const RayEvidence& evidence = candidate.evidence;
+    if (Gain(&candidate) < kMinShare * proposal.num_px ||
+        evidence.Fit() < kMinFit * evidence.num_explained() ||
+        UnsharedFit(evidence) < kMinUnshared * evidence.Fit()) {
+      --num_candidates_;
+    }
+  }
+  SelectBest(input);
+}
+
 void ModelSelection::AddCandidates(const std::vector<Hypothesis>& hypotheses, const Input& input) {
-  max_candidates_ = hypotheses.size() + kMaxParts;
+  max_candidates_ = hypotheses.size() + kMaxLate;
   if (candidates_.size() < max_candidates_) candidates_.resize(max_candidates_);
   num_candidates_ = 0;
   for (const Hypothesis& hypothesis : hypotheses) {
@@ -173,29 +255,31 @@ bool ModelSelection::CutLower(size_t old, const Input& input) {
 // Proposes parts of a selected candidate in its place, of whose gain only a share counts.
 bool ModelSelection::ReplaceByParts(const std::vector<Solid>& parts, size_t old,
                                     double share_of_old, const Input& input) {
-  const Hypothesis whole = candidates_[old].hypothesis;
+  Hypothesis hypothesis = candidates_[old].hypothesis;
   std::optional<size_t> first;
   for (const Solid& part : parts) {
-    const auto added = AddPart(whole, part, input);
+    hypothesis.solid = part;
+    if (part.shape == Shape::kCylinder) hypothesis.evidence[2] = Evidence::kAssumed;
+    const auto added = AddRefined(hypothesis, 0, input);
     if (added && (!first || Gain(&candidates_[*added]) > Gain(&candidates_[*first]))) first = added;
   }
   return first && candidates_[*first].num_blockers <= 1 &&
          Replace({old}, first, input, share_of_old);
 }
 
-// A part of what was one hypothesis, as a candidate of its own; nothing when it is not plausible.
-std::optional<size_t> ModelSelection::AddPart(const Hypothesis& whole, const Solid& part,
-                                              const Input& input) {
+// A hypothesis that comes late, as a candidate; nothing when it is not plausible, or explains less
+// than min_px before it is refined.
+std::optional<size_t> ModelSelection::AddRefined(const Hypothesis& hypothesis, double min_px,
+                                                 const Input& input) {
   if (num_candidates_ == max_candidates_) return std::nullopt;
   const size_t added = num_candidates_;
   Candidate& candidate = candidates_[added];
-  CastRays(part, input.observation, &candidate.evidence);
-  candidate.Begin(whole);
-  candidate.hypothesis.solid = part;
-  if (part.shape == Shape::kCylinder) candidate.hypothesis.evidence[2] = Evidence::kAssumed;
+  CastRays(hypothesis.solid, input.observation, &candidate.evidence);
+  if (candidate.evidence.num_explained() < min_px) return std::nullopt;
+  candidate.Begin(hypothesis);
   if (config_.refine()) {
-    RefineIfNoWorse(input.observation, input.observation, &candidate.hypothesis.solid,
-                    &candidate.evidence, input.buffers);
+    RefineOrClimb(input.observation, input.observation, &candidate.hypothesis.solid,
+                  &candidate.evidence, input.buffers);
   }
   if (!IsPlausible(candidate.evidence)) return std::nullopt;
   candidate.is_refined = true;
@@ -233,7 +317,7 @@ bool ModelSelection::RefineRivals(const Candidate& best, const Input& input) {
         !ShareSpace(candidate.hypothesis.solid, space, config_.max_shared_volume())) {
       continue;
     }
-    RefineOrClimb(input.observation, input.observation, 1, &candidate.hypothesis.solid,
+    RefineOrClimb(input.observation, input.observation, &candidate.hypothesis.solid,
                   &candidate.evidence, input.buffers);
     candidate.is_refined = true;
     candidate.misfit_share =
@@ -277,14 +361,19 @@ double ModelSelection::Gain(Candidate* candidate) const {
   return candidate->gain;
 }
 
-double ModelSelection::CountGain(const Candidate& candidate) const {
-  const RayEvidence& evidence = candidate.evidence;
+// [px] that speak for a solid and are explained by no selected one.
+double ModelSelection::UnsharedFit(const RayEvidence& evidence) const {
   int64_t fit_sum = 0;
   for (size_t i = 0; i < evidence.explained.size(); ++i) {
     const bool is_free = num_explaining_[static_cast<size_t>(evidence.explained[i])] == 0;
     fit_sum += is_free ? evidence.fits[i] : 0;
   }
-  const double gain = static_cast<double>(evidence.pixel_weight * fit_sum) / kFitUnit;
+  return static_cast<double>(evidence.pixel_weight * fit_sum) / kFitUnit;
+}
+
+double ModelSelection::CountGain(const Candidate& candidate) const {
+  const RayEvidence& evidence = candidate.evidence;
+  const double gain = UnsharedFit(evidence);
   double penalty =
       config_.violation_weight() *
           (evidence.num_violating + evidence.num_contradicting + evidence.num_overhanging) +

@@ -35,8 +35,8 @@ struct Candidate {
 
 // The set of solids that explains the image best: takes the hypothesis that explains the most
 // pixels nobody else explains, again and again, until none explains enough; then exchanges those
-// whose place another fills better. Solids do not share space. Buffers are used again for the next
-// frame.
+// whose place another fills better. What is left unexplained then is proposed for. Solids do not
+// share space. Buffers are used again for the next frame.
 class ModelSelection {
  public:
   explicit ModelSelection(const ModelVerifierConfig& config) : config_(config) {}
@@ -55,6 +55,9 @@ class ModelSelection {
     FitBuffers* buffers;
   };
 
+  void SelectBest(const Input& input);
+  void ProposeAboveBlockers(const Input& input);
+  void ProposeForUnexplained(const Input& input);
   void AddCandidates(const std::vector<Hypothesis>& hypotheses, const Input& input);
   bool Exchange(const Input& input);
   bool IsWorthTrying(size_t index);
@@ -65,7 +68,7 @@ class ModelSelection {
   bool CutLower(size_t old, const Input& input);
   bool ReplaceByParts(const std::vector<Solid>& parts, size_t old, double share_of_old,
                       const Input& input);
-  std::optional<size_t> AddPart(const Hypothesis& whole, const Solid& part, const Input& input);
+  std::optional<size_t> AddRefined(const Hypothesis& hypothesis, double min_px, const Input& input);
   std::optional<size_t> Best(const Input& input);
   bool RefineRivals(const Candidate& best, const Input& input);
   bool IsPlausible(const RayEvidence& evidence) const;
@@ -74,6 +77,7 @@ class ModelSelection {
   void OnMoved(size_t index);
   double Gain(Candidate* candidate) const;
   double CountGain(const Candidate& candidate) const;
+  double UnsharedFit(const RayEvidence& evidence) const;
   void Select(size_t index);
   void Release(size_t index);
   void Mark(size_t index, int change);

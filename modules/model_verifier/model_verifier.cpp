@@ -14,9 +14,6 @@
 namespace declutter {
 namespace {
 
-// After which the place of a solid no longer depends on where it was proposed.
-constexpr int kNumFits = 2;
-
 // In [0, 1]: how much of the confidence in a cylinder the shape of its side leaves. None where the
 // side is clearly tapered, as that of a bowl is; less where its radius changes with height by more
 // than noise.
@@ -33,27 +30,39 @@ double ShareOfSide(const Solid& cylinder, const std::vector<Eigen::Vector3d>& po
   return 1 - MisfitShare(std::sqrt(std::max(0.0, misfit * misfit - noise)));
 }
 
-// Fills the empty label image: each pixel belongs to the object whose surface it fits best; what is
-// seen inside an open cylinder belongs to it when nothing else explains it. The evidence of each
-// object comes first. best_fits is a buffer.
-void Label(const std::vector<RayEvidence>& evidence, std::vector<int32_t>* best_fits,
-           ObjectList* list) {
-  std::vector<int32_t>& best = *best_fits;  // in kFitUnit
-  best.assign(list->labels.size(), 0);
-  for (size_t i = 0; i < list->objects.size(); ++i) {
-    for (size_t k = 0; k < evidence[i].explained.size(); ++k) {
-      const auto pixel = static_cast<size_t>(evidence[i].explained[k]);
-      if (evidence[i].fits[k] <= best[pixel]) continue;
-      best[pixel] = evidence[i].fits[k];
-      list->labels[pixel] = static_cast<uint8_t>(i + 1);
-    }
-  }
+// What is seen inside an open cylinder belongs to it when nothing else explains it.
+void LabelHollow(const std::vector<RayEvidence>& evidence, ObjectList* list) {
   for (size_t i = 0; i < list->objects.size(); ++i) {
     for (int32_t pixel : evidence[i].hollow) {
       uint8_t& label = list->labels[static_cast<size_t>(pixel)];
       if (label == 0) label = static_cast<uint8_t>(i + 1);
     }
   }
+}
+
+// How many objects explain each pixel.
+void CountExplaining(const std::vector<RayEvidence>& evidence, size_t num_objects,
+                     size_t num_pixels, std::vector<uint8_t>* num) {
+  num->assign(num_pixels, 0);
+  for (size_t i = 0; i < num_objects; ++i) {
+    for (const int32_t pixel : evidence[i].explained) ++(*num)[static_cast<size_t>(pixel)];
+  }
+}
+
+// True when enough speaks for an object in its final place that speaks for no other; of one of
+// which no extent is seen, twice as much must be seen at all.
+bool IsSupported(const ObjectModel& object, const RayEvidence& evidence,
+                 const std::vector<uint8_t>& num_explaining, double min_px) {
+  double unshared = 0;  // [kFitUnit]
+  for (size_t k = 0; k < evidence.explained.size(); ++k) {
+    const bool is_shared = num_explaining[static_cast<size_t>(evidence.explained[k])] > 1;
+    unshared += is_shared ? 0 : evidence.fits[k];
+  }
+  const double balance = unshared / kFitUnit - evidence.num_violating - evidence.num_contradicting -
+                         evidence.num_overhanging;
+  const bool is_seen = std::any_of(object.evidence.begin(), object.evidence.end(),
+                                   [](Evidence extent) { return extent != Evidence::kAssumed; });
+  return balance >= min_px && (is_seen || evidence.num_explained() >= 2 * min_px);
 }
 
 // Takes the pixels of objects out of a grid of all pixels.
@@ -109,16 +118,14 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
 void ModelVerifier::Select(const std::vector<Hypothesis>& hypotheses,
                            const Observation& observation, std::vector<ObjectModel>* objects) {
   selection_.Run(hypotheses, observation, &buffers_);
-  for (const size_t i : selection_.selected()) {
-    Candidate& candidate = selection_.candidate(i);
+  std::vector<Candidate*> selected;
+  for (const size_t i : selection_.selected()) selected.push_back(&selection_.candidate(i));
+  if (config_.refine()) fits_.Run(observed_, selected, &buffers_);
+  for (const Candidate* candidate : selected) {
     ObjectModel& object = objects->emplace_back();
-    object.solid = candidate.hypothesis.solid;
-    if (config_.refine()) {
-      RefineOrClimb(observed_.every_pixel(), observation, kNumFits, &object.solid,
-                    &candidate.evidence, &buffers_);
-    }
-    object.evidence = candidate.hypothesis.evidence;
-    object.num_votes = candidate.hypothesis.num_votes;
+    object.solid = candidate->hypothesis.solid;
+    object.evidence = candidate->hypothesis.evidence;
+    object.num_votes = candidate->hypothesis.num_votes;
   }
 }
 
@@ -134,7 +141,12 @@ void ModelVerifier::Measure(ObjectList* list) {
     object.num_violating = evidence_[i].num_violating;
     object.id = static_cast<int32_t>(i + 1);
   }
-  Label(evidence_, &best_fits_, list);
+  std::vector<const RayEvidence*> of_objects;
+  for (size_t i = 0; i < num; ++i) of_objects.push_back(&evidence_[i]);
+  owners_.Assign(of_objects, observation.grid.num_pixels());
+  list->labels = owners_.owners();
+  LabelHollow(evidence_, list);
+  CountExplaining(evidence_, num, list->labels.size(), &num_explaining_);
   unlabelled_ = observation.grid;
   RemoveLabelled(list->labels, &unlabelled_);
   const Observation unlabelled{observation.image, unlabelled_, observation.normals,
@@ -152,6 +164,9 @@ void ModelVerifier::Measure(ObjectList* list) {
                                   observed_.every_second_pixel(), &buffers_.evidence);
     object.evidence = ExtentEvidence(ends);
     object.covariance = CovarianceOf(object.solid, ends, evidence_[i], points_O, list->camera);
+    if (!IsSupported(object, evidence_[i], num_explaining_, config_.min_explained_px())) {
+      object.confidence = 0;
+    }
   }
 }
 

@@ -7,6 +7,8 @@
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/model_verifier.pb.h"
 #include "modules/model_verifier/observation.h"
+#include "modules/model_verifier/pixel_owners.h"
+#include "modules/model_verifier/separate_fits.h"
 
 namespace declutter {
 
@@ -28,11 +30,13 @@ class ModelVerifier {
 
   ModelVerifierConfig config_;
   ModelSelection selection_;
+  SeparateFits fits_;
   // Room that the next frame uses again.
   ObservedImage observed_;
   FitBuffers buffers_;
   std::vector<RayEvidence> evidence_;
-  std::vector<int32_t> best_fits_;
+  PixelOwners owners_;
+  std::vector<uint8_t> num_explaining_;  // objects, per pixel
   PixelGrid unlabelled_;
 };
 

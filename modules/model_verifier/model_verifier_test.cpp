@@ -100,6 +100,23 @@ TEST(ModelVerifier, SetsAStackOnEachOther) {
   EXPECT_NEAR(upper.solid.height(), 0.1, 0.003);
 }
 
+TEST(ModelVerifier, CutsWhatReachesDownIntoWhatItStandsOn) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.2 size_y_m: 0.1 size_z_m: 0.06 } y_m: 0.65 }"
+      "object { box { size_x_m: 0.08 size_y_m: 0.06 size_z_m: 0.05 } y_m: 0.63 on: 0 }");
+  // The side of the lower box was taken for more of the upper one's, whose place a can would fill.
+  const Solid deep = Changed(scene.objects[1].solid, {0, 0, -0.03}, {0, 0, 0.06});
+  Solid can = Changed(scene.objects[1].solid, {0, 0, 0}, {-0.01, 0.01, 0});
+  can.shape = Shape::kCylinder;
+  const ObjectList list =
+      Verify(scene, {Proposal(deep), Proposal(can), Proposal(scene.objects[0].solid)});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  const ObjectModel& upper = list.objects[1];
+  EXPECT_EQ(upper.solid.shape, Shape::kBox);
+  EXPECT_NEAR(upper.solid.height(), 0.05, 0.003);
+  EXPECT_EQ(upper.supported_by, list.objects[0].id);
+}
+
 TEST(ModelVerifier, ExtendsAHiddenBottomToTheTable) {
   const RenderedScene scene = RenderText(kBox);
   Hypothesis upper = Proposal(Changed(scene.objects[0].solid, {0, 0, 0.03}, {0, 0, -0.06}));
@@ -172,10 +189,12 @@ TEST(ModelVerifier, KnowsACylinderBetterTheMoreOfItsSideIsSeen) {
   const RenderedScene hidden = RenderText(
       can + "object { box { size_x_m: 0.15 size_y_m: 0.05 size_z_m: 0.1 } x_m: -0.07 y_m: 0.6 }");
   const ObjectList seen = Verify(alone, {Proposal(alone.objects[0].solid)});
-  const ObjectList half_seen = Verify(hidden, {Proposal(hidden.objects[0].solid)});
+  const ObjectList half_seen =
+      Verify(hidden, {Proposal(hidden.objects[0].solid), Proposal(hidden.objects[1].solid)});
   ASSERT_THAT(seen.objects, SizeIs(1));
-  ASSERT_THAT(half_seen.objects, SizeIs(1));
-  EXPECT_LT(seen.objects[0].covariance(3, 3), half_seen.objects[0].covariance(3, 3));
+  ASSERT_THAT(half_seen.objects, SizeIs(2));  // in the order of their tops
+  EXPECT_EQ(half_seen.objects[1].solid.shape, Shape::kCylinder);
+  EXPECT_LT(seen.objects[0].covariance(3, 3), half_seen.objects[1].covariance(3, 3));
   EXPECT_EQ(seen.objects[0].covariance(3, 4), seen.objects[0].covariance(3, 3));
 }
 

@@ -26,15 +26,13 @@ bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Soli
   return true;
 }
 
-void RefineOrClimb(const Observation& fitted, const Observation& judging, int max_fits,
-                   Solid* solid, RayEvidence* evidence, FitBuffers* buffers) {
-  int num_fits = 0;
-  while (num_fits < max_fits && RefineIfNoWorse(fitted, judging, solid, evidence, buffers)) {
-    ++num_fits;
-  }
-  if (num_fits == 0 && solid->shape == Shape::kCylinder) {
+bool RefineOrClimb(const Observation& fitted, const Observation& judging, Solid* solid,
+                   RayEvidence* evidence, FitBuffers* buffers) {
+  const bool is_fitted = RefineIfNoWorse(fitted, judging, solid, evidence, buffers);
+  if (!is_fitted && solid->shape == Shape::kCylinder) {
     ClimbCylinder(judging, solid, evidence, &buffers->evidence);
   }
+  return is_fitted;
 }
 
 }  // namespace declutter

@@ -7,10 +7,9 @@
 namespace declutter {
 
 // Fits a solid to all points on its surface by weighted least squares (weight: inverse variance
-// along the surface normal). Faces that are seen move onto their points; an edge behind which a
-// face is not seen moves to where the area of the face in front of it ends, so that it is not
-// biased by the pixels a percentile would cut off. Parameters without enough points keep their
-// value.
+// along the surface normal). Faces that are seen move onto their points; an end behind which no
+// face is seen moves to where the faces beside it end, so that it is not biased by the pixels a
+// percentile would cut off. Parameters without enough points keep their value.
 Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buffer);
 
 // Refines a solid on one observation where that does not lose what speaks for it on another: with
@@ -19,9 +18,8 @@ Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buff
 bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
                      RayEvidence* evidence, FitBuffers* buffers);
 
-// The same up to max_fits times; a cylinder that no fit could move climbs to the best place near
-// it.
-void RefineOrClimb(const Observation& fitted, const Observation& judging, int max_fits,
-                   Solid* solid, RayEvidence* evidence, FitBuffers* buffers);
+// The same; a cylinder that the fit could not move climbs to the best place near it.
+bool RefineOrClimb(const Observation& fitted, const Observation& judging, Solid* solid,
+                   RayEvidence* evidence, FitBuffers* buffers);
 
 }  // namespace declutter

@@ -20,12 +20,9 @@ double HalfExtent(const Solid& solid, const Plane& support) {
   return 0.5 * std::abs(up_O.z()) * solid.height() + up_O.head<2>().norm() * solid.radius();
 }
 
-// Heights of the lowest and highest point of a solid above the support plane [m].
+// [m] of the lowest point of a solid above the support plane.
 double Bottom(const Solid& solid, const Plane& support) {
   return support.Height(solid.X_CO.translation()) - HalfExtent(solid, support);
-}
-double Top(const Solid& solid, const Plane& support) {
-  return support.Height(solid.X_CO.translation()) + HalfExtent(solid, support);
 }
 
 // Share of the upper solid's footprint that lies over the lower solid.
@@ -66,7 +63,7 @@ void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper, doub
                      const Plane& support, std::vector<Floor>* floors) {
   floors->assign(1, Floor());
   for (size_t j = 0; j < upper; ++j) {
-    const double top = Top(objects[j].solid, support);
+    const double top = TopOf(objects[j].solid, support);
     const double share = FootprintOver(objects[upper].solid, objects[j].solid);
     if (top > bottom + kSupportTolerance || share < kMinFootprint) continue;
     if (share > kFullFootprint) {
@@ -82,11 +79,19 @@ void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper, doub
 
 }  // namespace
 
+double TopOf(const Solid& solid, const Plane& support) {
+  return support.Height(solid.X_CO.translation()) + HalfExtent(solid, support);
+}
+
+Solid ExtendedToSupport(const Solid& solid, const Plane& support) {
+  return Extended(solid, Bottom(solid, support), 0);
+}
+
 void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects,
                       RayEvidence* buffer) {
   const Plane& support = observation.support;
   std::sort(objects->begin(), objects->end(), [&](const ObjectModel& a, const ObjectModel& b) {
-    return Top(a.solid, support) < Top(b.solid, support);
+    return TopOf(a.solid, support) < TopOf(b.solid, support);
   });
   const auto num_violating = [&](const Solid& solid) {
     CastRays(solid, observation, buffer);

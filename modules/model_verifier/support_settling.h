@@ -13,4 +13,10 @@ namespace declutter {
 void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects,
                       RayEvidence* buffer);
 
+// [m] of the highest point of a solid above the support plane.
+double TopOf(const Solid& solid, const Plane& support);
+
+// A solid lengthened along its z axis down to the support plane.
+Solid ExtendedToSupport(const Solid& solid, const Plane& support);
+
 }  // namespace declutter

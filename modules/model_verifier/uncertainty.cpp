@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kPixelsPerSample = 36;  // over which the noise of a sensor is correlated
 constexpr double kFaceBias = 0.5;        // [sigma] of a face, however many points it has
-constexpr double kEdgeError = 1.0;       // [px] of an edge
-constexpr double kSupportSd = 0.0010;    // [m] of the support plane at an object
+constexpr double kEdgeError = 0.5;       // [px] of an edge
+constexpr double kSupportSd = 0.0007;    // [m] of the support plane at an object
 constexpr double kAssumedSd = 0.025;     // [m] of a hidden end
 constexpr double kDepthBias = 0.5;       // [sigma] of all depths around an object
 constexpr double kMaxSd = 0.1;           // [m]
@@ -42,7 +42,7 @@ double VarianceOfEnd(const Solid& solid, EndEvidence end, int axis, int sign, do
     case EndEvidence::kSupport:
       return Square(kSupportSd);
     case EndEvidence::kFreeSpace:
-      return Square(0.5 * kFreeSpaceReach);
+      return Square(kFreeSpaceReach) / 12;  // anywhere in it
     case EndEvidence::kAssumed:
       return Square(kAssumedSd);
   }

@@ -1,0 +1,94 @@
+#include "modules/model_verifier/late_proposals.h"
+
+#include <algorithm>
+
+#include "modules/geometry/convex_hull.h"
+#include "modules/geometry/plane.h"
+#include "modules/model_verifier/part_completion.h"
+#include "modules/model_verifier/projection.h"
+#include "modules/model_verifier/ray_casting.h"
+#include "modules/model_verifier/surface_parts.h"
+
+namespace declutter {
+namespace {
+
+constexpr double kMargin = 0.10;    // [m] around the selected solids
+constexpr float kMinHeight = 1.5f;  // [tolerances] of points that need an explanation
+
+// The convex hull of solids seen from above, with a margin.
+ConvexRegion RegionOf(const std::vector<Solid>& solids, const Eigen::Isometry3d& X_TC) {
+  std::vector<Eigen::Vector2d> corners;
+  for (const Solid& solid : solids) {
+    for (int k = 0; k < 8; ++k) {
+      const Eigen::Vector3d sign((k & 1) - 0.5, ((k >> 1) & 1) - 0.5, ((k >> 2) & 1) - 0.5);
+      corners.push_back((X_TC * (solid.X_CO * sign.cwiseProduct(solid.size))).head<2>());
+    }
+  }
+  return ConvexRegion(ConvexHull(corners), kMargin);
+}
+
+// What all solids with a margin project to.
+PixelWindow WindowOf(const std::vector<Solid>& solids, const Observation& observation) {
+  PixelWindow all{observation.grid.columns, 0, observation.grid.rows, 0};
+  for (const Solid& solid : solids) {
+    const RayWindow one = WindowOf(solid, kMargin, observation);
+    all = {std::min(all.u_begin, one.u_begin), std::max(all.u_end, one.u_end),
+           std::min(all.v_begin, one.v_begin), std::max(all.v_end, one.v_end)};
+  }
+  return all;
+}
+
+// Marks the points of a window that need an explanation and have none.
+std::vector<uint8_t> MarkUnexplained(const std::vector<uint8_t>& is_explained,
+                                     const PixelWindow& window, const Observation& observation) {
+  const PixelGrid& grid = observation.grid;
+  const Eigen::Vector3f up = observation.support.normal.cast<float>();
+  const auto camera_height = static_cast<float>(observation.support.d);
+  std::vector<uint8_t> is_marked(is_explained.size(), 0);
+  for (int v = window.v_begin; v < window.v_end; ++v) {
+    const auto row = static_cast<size_t>(v);
+    for (int u = window.u_begin; u < window.u_end; ++u) {
+      const auto column = static_cast<size_t>(u);
+      const size_t pixel = row * static_cast<size_t>(grid.columns) + column;
+      const float z = grid.z[row * grid.stride + column];
+      if (z <= 0 || is_explained[pixel]) continue;
+      const float height =
+          camera_height + z * up.dot(Eigen::Vector3f(grid.ray_x[column], grid.ray_y[row], 1));
+      is_marked[pixel] = height > kMinHeight * static_cast<float>(SurfaceTolerance(z));
+    }
+  }
+  return is_marked;
+}
+
+bool IsMostlyIn(const ConvexRegion& region, const SurfacePart& part) {
+  size_t num = 0;
+  for (const auto* points : {&part.tops, &part.sides}) {
+    for (const Eigen::Vector3f& p : *points) num += region.Contains(p.x(), p.y());
+  }
+  return 2 * num > part.num_points();
+}
+
+}  // namespace
+
+std::vector<LateProposal> ProposeForUnexplained(const std::vector<Solid>& selected,
+                                                const std::vector<uint8_t>& is_explained,
+                                                double min_px, const Observation& observation) {
+  std::vector<LateProposal> proposals;
+  if (selected.empty()) return proposals;
+  const int pixel_weight = observation.grid.pixel_weight();
+  const Eigen::Isometry3d X_TC = TableFrame(observation.support);
+  const Eigen::Isometry3d X_CT = X_TC.inverse();
+  const PixelWindow window = WindowOf(selected, observation);
+  const std::vector<uint8_t> is_marked = MarkUnexplained(is_explained, window, observation);
+  const ConvexRegion region = RegionOf(selected, X_TC);
+  for (const SurfacePart& part : FindParts(
+           is_marked, window, X_TC, static_cast<size_t>(min_px / pixel_weight), observation)) {
+    if (!IsMostlyIn(region, part)) continue;
+    for (const Hypothesis& hypothesis : SolidsOver(part, X_CT)) {
+      proposals.push_back({hypothesis, pixel_weight * static_cast<int>(part.num_points())});
+    }
+  }
+  return proposals;
+}
+
+}  // namespace declutter

@@ -1,0 +1,162 @@
+#include "modules/model_verifier/part_completion.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "modules/geometry/edge_direction.h"
+
+namespace declutter {
+namespace {
+
+constexpr size_t kMinTops = 12;       // points that tell the height of a top
+constexpr size_t kMinSides = 6;       // points that tell how far down a side goes
+constexpr float kMinExtent = 0.015f;  // [m] that can be grasped
+constexpr float kMaxExtent = 0.40f;
+constexpr float kMinRadius = 0.015f;
+constexpr float kMaxRadius = 0.12f;
+constexpr float kTopOnlyDepth = 0.005f;  // [m] of side below a top of which none is seen
+constexpr float kMaxUnseen = 0.020f;     // [m] of side above the support
+
+struct Range {
+  float low, high;
+};
+
+Range Quantiles(std::vector<float>* values, float low, float high) {
+  const auto at = [&](float share) {
+    const auto rank =
+        static_cast<std::ptrdiff_t>(share * static_cast<float>(values->size() - 1) + 0.5f);
+    std::nth_element(values->begin(), values->begin() + rank, values->end());
+    return (*values)[static_cast<size_t>(rank)];
+  };
+  const float a = at(low);
+  return {a, at(high)};
+}
+
+std::vector<float> HeightsOf(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<float> heights;
+  for (const Eigen::Vector3f& p : points) heights.push_back(p.z());
+  return heights;
+}
+
+// From the support, or the lowest point seen, to the top.
+Range HeightsOf(const SurfacePart& part) {
+  std::vector<float> tops = HeightsOf(part.tops), sides = HeightsOf(part.sides);
+  Range range;
+  if (tops.size() >= kMinTops) {
+    range.high = Quantiles(&tops, 0.5f, 0.5f).low;
+  } else {
+    tops.insert(tops.end(), sides.begin(), sides.end());
+    range.high = Quantiles(&tops, 0.5f, 0.98f).high;
+  }
+  range.low = range.high - kTopOnlyDepth;
+  if (sides.size() >= kMinSides)
+    range.low = std::min(range.low, Quantiles(&sides, 0.02f, 0.5f).low);
+  if (range.low < kMaxUnseen) range.low = 0;
+  return range;
+}
+
+Hypothesis Standing(Shape shape, const Range& heights, const Eigen::Vector2f& centre,
+                    const Eigen::Vector2f& axis, const Eigen::Vector2f& size,
+                    const Eigen::Isometry3d& X_CT) {
+  Hypothesis hypothesis;
+  hypothesis.solid.shape = shape;
+  Eigen::Isometry3d X_TO = Eigen::Isometry3d::Identity();
+  X_TO.linear() = Eigen::AngleAxisd(std::atan2(axis.y(), axis.x()), Eigen::Vector3d::UnitZ())
+                      .toRotationMatrix();
+  X_TO.translation() =
+      Eigen::Vector3f(centre.x(), centre.y(), 0.5f * (heights.low + heights.high)).cast<double>();
+  hypothesis.solid.X_CO = X_CT * X_TO;
+  hypothesis.solid.size =
+      Eigen::Vector3f(size.x(), size.y(), heights.high - heights.low).cast<double>();
+  if (heights.low > 0) hypothesis.evidence[2] = Evidence::kAssumed;
+  return hypothesis;
+}
+
+std::optional<Hypothesis> BoxOver(const SurfacePart& part, const Range& heights,
+                                  const Eigen::Isometry3d& X_CT) {
+  const auto direction = EdgeDirection(part.outline);
+  if (!direction) return std::nullopt;
+  const std::array<Eigen::Vector2f, 2> axes = {*direction, {-direction->y(), direction->x()}};
+  std::array<Range, 2> ends;
+  std::array<bool, 2> is_assumed = {};
+  for (size_t i = 0; i < 2; ++i) {
+    std::vector<float> along;
+    for (const auto* points : {&part.tops, &part.sides}) {
+      for (const Eigen::Vector3f& p : *points) along.push_back(axes[i].dot(p.head<2>()));
+    }
+    ends[i] = Quantiles(&along, 0.01f, 0.99f);
+  }
+  for (size_t i = 0; i < 2; ++i) {
+    if (ends[i].high - ends[i].low > kMinExtent) continue;
+    // Only one side was seen: the body is behind it, as the camera is above the origin.
+    const float depth = std::clamp(0.5f * (ends[1 - i].high - ends[1 - i].low), 0.03f, 0.10f);
+    (ends[i].low > 0 ? ends[i].high : ends[i].low) =
+        ends[i].low > 0 ? ends[i].low + depth : ends[i].high - depth;
+    is_assumed[i] = true;
+  }
+  const Eigen::Vector2f size(ends[0].high - ends[0].low, ends[1].high - ends[1].low);
+  if (size.minCoeff() < kMinExtent || size.maxCoeff() > kMaxExtent) return std::nullopt;
+  const Eigen::Vector2f centre =
+      0.5f * (ends[0].low + ends[0].high) * axes[0] + 0.5f * (ends[1].low + ends[1].high) * axes[1];
+  Hypothesis box = Standing(Shape::kBox, heights, centre, axes[0], size, X_CT);
+  for (size_t i = 0; i < 2; ++i) {
+    if (is_assumed[i]) box.evidence[i] = Evidence::kAssumed;
+  }
+  return box;
+}
+
+std::optional<Hypothesis> CylinderOver(const SurfacePart& part, const Range& heights,
+                                       const Eigen::Isometry3d& X_CT) {
+  constexpr int kSteps = 8;
+  constexpr float kMaxDistance = 0.008f;  // [m] of a point of the outline from the circle
+  if (part.outline.size() < kMinTops) return std::nullopt;
+  // |p|^2 = 2 c p + r^2 - |c|^2 by least squares, then distances instead of squares.
+  Eigen::Vector2f mean = Eigen::Vector2f::Zero();
+  for (const Eigen::Vector2f& p : part.outline) mean += p;
+  mean /= static_cast<float>(part.outline.size());
+  Eigen::Matrix3f H = Eigen::Matrix3f::Identity() * 1e-7f;
+  Eigen::Vector3f g = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector2f& p : part.outline) {
+    const Eigen::Vector2f q = p - mean;
+    const Eigen::Vector3f J(2 * q.x(), 2 * q.y(), 1);
+    H += J * J.transpose();
+    g += J * q.squaredNorm();
+  }
+  const Eigen::Vector3f x = H.ldlt().solve(g);
+  Eigen::Vector2f c = x.head<2>();
+  float r = std::sqrt(std::max(1e-6f, x.z() + c.squaredNorm()));
+  for (int step = 0; step < kSteps; ++step) {
+    H = Eigen::Matrix3f::Identity() * 1e-3f;
+    g.setZero();
+    for (const Eigen::Vector2f& p : part.outline) {
+      const Eigen::Vector2f q = p - mean - c;
+      const float distance = std::max(1e-6f, q.norm());
+      if (step > 1 && std::abs(distance - r) > kMaxDistance) continue;
+      const Eigen::Vector3f J(-q.x() / distance, -q.y() / distance, -1);
+      H += J * J.transpose();
+      g += J * (distance - r);
+    }
+    const Eigen::Vector3f change = H.ldlt().solve(g);
+    c -= change.head<2>();
+    r -= change.z();
+  }
+  if (!c.allFinite() || !(r > kMinRadius && r < kMaxRadius)) return std::nullopt;
+  return Standing(Shape::kCylinder, heights, mean + c, Eigen::Vector2f::UnitX(),
+                  Eigen::Vector2f::Constant(2 * r), X_CT);
+}
+
+}  // namespace
+
+std::vector<Hypothesis> SolidsOver(const SurfacePart& part, const Eigen::Isometry3d& X_CT) {
+  const Range heights = HeightsOf(part);
+  std::vector<Hypothesis> solids;
+  if (heights.high - heights.low <= 0) return solids;
+  if (const auto box = BoxOver(part, heights, X_CT)) solids.push_back(*box);
+  if (const auto cylinder = CylinderOver(part, heights, X_CT)) solids.push_back(*cylinder);
+  return solids;
+}
+
+}  // namespace declutter

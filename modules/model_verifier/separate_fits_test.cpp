@@ -1,0 +1,62 @@
+#include "modules/model_verifier/separate_fits.h"
+
+#include <gtest/gtest.h>
+
+#include "modules/model_verifier/ray_casting.h"
+#include "modules/model_verifier/refinement.h"
+#include "modules/scene_renderer/scene_renderer.h"
+#include "modules/scene_renderer/scene_text.h"
+
+namespace declutter {
+namespace {
+
+RayEvidence EvidenceWith(const std::vector<int32_t>& explained, const std::vector<int32_t>& fits) {
+  RayEvidence evidence;
+  evidence.explained.assign(explained.begin(), explained.end());
+  evidence.fits.assign(fits.begin(), fits.end());
+  return evidence;
+}
+
+TEST(PixelOwners, AreTheSolidsThatPixelsFitBest) {
+  const RayEvidence first = EvidenceWith({0, 1, 2}, {10, 50, 70});
+  const RayEvidence second = EvidenceWith({1, 2, 4}, {60, 70, 1});
+  PixelOwners owners;
+  owners.Assign({&first, &second}, 6);
+  EXPECT_EQ(owners.owners(), (std::vector<uint8_t>{1, 2, 1, 0, 2, 0}));
+}
+
+// A low box, and one in contact with it whose top and right side continue those of the first.
+constexpr char kScene[] =
+    "object { box { size_x_m: 0.1 size_y_m: 0.08 size_z_m: 0.08 } x_m: -0.15 y_m: 0.6 }"
+    "object { box { size_x_m: 0.1 size_y_m: 0.06 size_z_m: 0.08 } x_m: -0.15 y_m: 0.6702 }";
+
+TEST(SeparateFits, KeepBoxesApartOfWhichOneContinuesTheOther) {
+  const RenderedScene scene = Render(ParseScene(kScene, "scene"), 1);
+  ObservedImage observed;
+  observed.Set(scene.depth, scene.table);
+  std::vector<Candidate> candidates(2);
+  std::vector<Candidate*> selected;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i].hypothesis.solid = scene.objects[i].solid;
+    CastRays(scene.objects[i].solid, observed.every_second_pixel(), &candidates[i].evidence);
+    selected.push_back(&candidates[i]);
+  }
+  FitBuffers buffers;
+  const Solid& truth = scene.objects[0].solid;
+  Solid together = truth;
+  for (int i = 0; i < 2; ++i) together = Refine(together, observed.every_pixel(), &buffers.points);
+  EXPECT_GT(together.size.y(), truth.size.y() + 0.010);
+
+  SeparateFits fits;
+  fits.Run(observed, selected, &buffers);
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const Solid& solid = candidates[i].hypothesis.solid;
+    EXPECT_LT((solid.size - scene.objects[i].solid.size).cwiseAbs().maxCoeff(), 0.003) << i;
+    EXPECT_EQ(candidates[i].evidence.Balance(),
+              CastRays(solid, observed.every_second_pixel()).Balance());
+  }
+  EXPECT_NE(candidates[0].hypothesis.solid.size, truth.size);
+}
+
+}  // namespace
+}  // namespace declutter
