@@ -1,5 +1,4 @@
 #include <cmath>
-#include <optional>
 
 #include "modules/hough_segmenter/disc_fit.h"
 #include "modules/hough_segmenter/solid_completion.h"

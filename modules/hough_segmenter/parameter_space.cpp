@@ -77,8 +77,7 @@ CircleModel ZeroSum(const CircleModel& model) {
 
 template <typename Model>
 void ParameterSpace<Model>::Add(const Fit<Model>& fit) {
-  if (num_votes_ == votes_.size()) votes_.emplace_back();
-  Vote& vote = votes_[num_votes_++];
+  Vote& vote = votes_.Add();
   vote.fit = fit;
   vote.key = KeyOf(fit.model);
   vote.num_open = fit.num_points;
@@ -87,19 +86,19 @@ void ParameterSpace<Model>::Add(const Fit<Model>& fit) {
 
 template <typename Model>
 void ParameterSpace<Model>::Connect() {
-  order_.resize(num_votes_);
+  order_.resize(votes_.size());
   std::iota(order_.begin(), order_.end(), size_t{0});
   std::sort(order_.begin(), order_.end(), [this](size_t i, size_t j) {
     return std::pair(votes_[i].key, i) < std::pair(votes_[j].key, j);
   });
   pairs_.clear();
   for (size_t i : order_) votes_[i].num_neighbours = 0;
-  for (size_t k = 0; k < num_votes_; ++k) {
+  for (size_t k = 0; k < votes_.size(); ++k) {
     // Those next in order, around the circle for angles.
-    for (size_t step = 0; step < num_votes_; ++step) {
+    for (size_t step = 0; step < votes_.size(); ++step) {
       const size_t i = order_[k];
-      const size_t j = order_[(k + step) % num_votes_];
-      const float turn = k + step < num_votes_ ? 0 : PeriodOf(votes_[i].fit.model);
+      const size_t j = order_[(k + step) % votes_.size()];
+      const float turn = k + step < votes_.size() ? 0 : PeriodOf(votes_[i].fit.model);
       if (votes_[j].key + turn - votes_[i].key > MaxKeyDifference(votes_[i].fit.model)) break;
       if (i != j && !IsNear(votes_[i].fit.model, votes_[j].fit.model)) continue;
       pairs_.emplace_back(i, j);
@@ -108,7 +107,7 @@ void ParameterSpace<Model>::Connect() {
     }
   }
   size_t sum = 0;
-  for (size_t i = 0; i < num_votes_; ++i) {
+  for (size_t i = 0; i < votes_.size(); ++i) {
     votes_[i].first_neighbour = sum;
     sum += votes_[i].num_neighbours;
     votes_[i].num_neighbours = 0;
@@ -137,7 +136,7 @@ void ParameterSpace<Model>::ForEachLeftNear(size_t vote, Visit visit) const {
 template <typename Model>
 std::optional<typename ParameterSpace<Model>::Peak> ParameterSpace<Model>::HighestPeak() const {
   std::optional<size_t> best;
-  for (size_t i = 0; i < num_votes_; ++i) {
+  for (size_t i = 0; i < votes_.size(); ++i) {
     if (votes_[i].is_left && (!best || votes_[i].density > votes_[*best].density)) best = i;
   }
   if (!best) return std::nullopt;
@@ -167,7 +166,7 @@ void ParameterSpace<Model>::Remove(const Peak& peak) {
 
 template <typename Model>
 void ParameterSpace<Model>::Explain(const std::vector<SideCell>& cells, const CellSet& explained) {
-  for (size_t i = 0; i < num_votes_; ++i) {
+  for (size_t i = 0; i < votes_.size(); ++i) {
     Vote& vote = votes_[i];
     if (!vote.is_left) continue;
     vote.fit.inliers.ForEachIn(explained, [&](size_t c) { vote.num_open -= cells[c].weight; });

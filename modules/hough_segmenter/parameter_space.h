@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modules/hough_segmenter/model_fits.h"
+#include "modules/hough_segmenter/reused_list.h"
 
 namespace declutter {
 
@@ -20,7 +21,7 @@ class ParameterSpace {
     int num_votes = 0;
   };
 
-  void Clear() { num_votes_ = 0; }
+  void Clear() { votes_.Clear(); }
   void Add(const Fit<Model>& fit);
 
   // Finds the neighbours of each vote, after the last Add().
@@ -51,8 +52,7 @@ class ParameterSpace {
   void ForEachLeftNear(size_t vote, Visit visit) const;
   void Forget(size_t vote);
 
-  size_t num_votes_ = 0;
-  std::vector<Vote> votes_;         // of which num_votes_ are in use
+  ReusedList<Vote> votes_;
   std::vector<size_t> neighbours_;  // of one vote after the other; each is its own neighbour
   std::vector<size_t> order_;       // of keys
   std::vector<std::pair<size_t, size_t>> pairs_;

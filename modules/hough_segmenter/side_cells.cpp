@@ -1,6 +1,5 @@
 #include "modules/hough_segmenter/side_cells.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
