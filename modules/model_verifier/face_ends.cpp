@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kBin = 0.0005;          // [m]
 constexpr double kMaxShrinkage = 0.015;  // [m] that an end moves inward at most
+// [m] the same while solids still compete, seen by thinned pixels of which nobody knows whose they
+// are: more would cut a box down to the part of something else that happens to be flat.
+constexpr double kMaxEarlyShrinkage = 0.006;
 constexpr double kMaxGrowth = kBin * EndProfile::kNumBins - kMaxShrinkage;  // [m] and outward
 constexpr double kBlur = 0.002;  // [m] around an end where pixels of both sides mix
 constexpr int kMinThere = 30;    // [px] of a face near its end
@@ -93,7 +96,8 @@ std::optional<double> ShiftOfEnd(const Solid& box, int axis, int sign,
   }
   const auto end = EndIn(profile, observation.grid.pixel_weight());
   if (!end) return std::nullopt;
-  return kBin * *end - kMaxShrinkage;
+  const double max_shrinkage = observation.grid.step > 1 ? kMaxEarlyShrinkage : kMaxShrinkage;
+  return std::max(kBin * *end - kMaxShrinkage, -max_shrinkage);
 }
 
 }  // namespace declutter
