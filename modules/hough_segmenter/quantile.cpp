@@ -27,8 +27,8 @@ void CountInBins(const float* values, size_t num, float low, float bins_per_unit
   HWY_ALIGN int32_t bins[kLanes];
   uint32_t parts[kNumParts][kNumBins] = {};
   for (size_t i = 0; i < num; i += kLanes) {
-    const auto steps = hn::Mul(hn::Sub(hn::LoadU(f, values + i), hn::Set(f, low)),
-                               hn::Set(f, bins_per_unit));
+    const auto steps =
+        hn::Mul(hn::Sub(hn::LoadU(f, values + i), hn::Set(f, low)), hn::Set(f, bins_per_unit));
     hn::Store(hn::ConvertTo(i32, steps), i32, bins);
     for (size_t k = 0; k < HWY_MIN(kLanes, num - i); ++k) ++parts[k % kNumParts][bins[k]];
   }

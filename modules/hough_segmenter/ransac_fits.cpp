@@ -140,9 +140,9 @@ bool SideFitter::Rank(const std::vector<Shape>& candidates) {
   if (num_scored > num_first) {
     const size_t num_finalists =
         std::min(candidates.size(), std::max(kMinFinalists, candidates.size() / 4));
-    std::partial_sort(ranking_.begin(),
-                      ranking_.begin() + static_cast<std::ptrdiff_t>(num_finalists), ranking_.end(),
-                      is_better);
+    std::nth_element(ranking_.begin(),
+                     ranking_.begin() + static_cast<std::ptrdiff_t>(num_finalists), ranking_.end(),
+                     is_better);
     ranking_.resize(num_finalists);
     const CellView rest = left.Part(begin + num_first, num_scored - num_first);
     for (const size_t i : ranking_) {
