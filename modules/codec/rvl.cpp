@@ -1,7 +1,10 @@
 #include "modules/codec/rvl.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+
+#include "modules/geometry/for_each_processor.h"
 
 namespace declutter::codec {
 namespace {
@@ -147,23 +150,14 @@ class NibbleReader {
     return number;
   }
 
-  // The differences that come whole in the next chunk; none: Get() reads the next one.
-  const Chunk& Peek() {
-    Refill();
-    return kChunks[bits_ >> (64 - kChunkCodeBits)];
-  }
+  // The differences that come whole in the next chunk; none: Get() reads the next one. Refill()
+  // lasts for two chunks.
+  const Chunk& Peek() const { return kChunks[bits_ >> (64 - kChunkCodeBits)]; }
   void Skip(uint32_t num_bits) {
     bits_ <<= num_bits;
     num_bits_ -= num_bits;
   }
 
-  bool ok() const { return !overlong_ && num_bits_ >= num_missing_bits_; }
-  // Only the filling of the last word is left.
-  bool AtEnd() const {
-    return ok() && next_ == end_ && bits_ == 0 && num_bits_ - num_missing_bits_ < kWordBits;
-  }
-
- private:
   // To a word at least. The next word is always read, and taken where there is room: a branch that
   // depends on the data takes longer.
   void Refill() {
@@ -180,6 +174,13 @@ class NibbleReader {
     next_ += takes * kWordBytes;
   }
 
+  bool ok() const { return !overlong_ && num_bits_ >= num_missing_bits_; }
+  // Only the filling of the last word is left.
+  bool AtEnd() const {
+    return ok() && next_ == end_ && bits_ == 0 && num_bits_ - num_missing_bits_ < kWordBits;
+  }
+
+ private:
   const uint8_t* next_;
   const uint8_t* const end_;
   uint64_t bits_ = 0;  // the highest num_bits_ are not read yet, the others are zero
@@ -209,6 +210,15 @@ size_t EndOfNonzeros(const std::vector<uint16_t>& counts, size_t begin) {
   return begin;
 }
 
+// Counts coded together.
+constexpr size_t kBlock = 256;
+
+DECLUTTER_FOR_EACH_PROCESSOR void ToNumbers(const uint16_t* counts, size_t num, int32_t previous,
+                                            uint32_t* numbers) {
+  numbers[0] = ToNumber(counts[0] - previous);
+  for (size_t i = 1; i < num; ++i) numbers[i] = ToNumber(counts[i] - counts[i - 1]);
+}
+
 // Reads num counts that are not 0; false when they leave the range of counts.
 bool ReadRun(size_t num, NibbleReader* reader, uint32_t* previous, uint16_t* counts) {
   uint32_t count = *previous;
@@ -219,18 +229,20 @@ bool ReadRun(size_t num, NibbleReader* reader, uint32_t* previous, uint16_t* cou
     counts[i] = static_cast<uint16_t>(count);
   };
   size_t i = 0;
-  while (i + kChunkNibbles <= num) {
+  // Adds also those beyond chunk.num, which change nothing and are written again.
+  const auto add_chunk = [&] {
     const Chunk& chunk = reader->Peek();
-    if (chunk.num == 0) {
-      add(ToDifference(reader->Get()), i++);
-      continue;
-    }
+    if (chunk.num == 0) return false;
     reader->Skip(chunk.num_bits);
-    // Also those beyond chunk.num, which change nothing and are written again.
     for (size_t k = 0; k < kChunkNibbles; ++k) {
       add(static_cast<uint32_t>(int32_t{chunk.differences[k]}), i + k);
     }
     i += chunk.num;
+    return true;
+  };
+  while (i + 2 * kChunkNibbles <= num) {
+    reader->Refill();
+    if (!(add_chunk() && add_chunk())) add(ToDifference(reader->Get()), i++);
   }
   while (i < num) add(ToDifference(reader->Get()), i++);
   *previous = count;
@@ -247,20 +259,21 @@ size_t MaxRvlBytes(size_t num_counts) {
 
 size_t EncodeRvl(const std::vector<uint16_t>& counts, uint8_t* out) {
   NibbleWriter writer(out);
+  std::array<uint32_t, kBlock> numbers;
   int32_t previous = 0;
   for (size_t i = 0; i < counts.size();) {
     const size_t begin = EndOfZeros(counts, i);
     const size_t end = EndOfNonzeros(counts, begin);
     writer.Put(static_cast<uint32_t>(begin - i));
     writer.Put(static_cast<uint32_t>(end - begin));
-    for (i = begin; i + 1 < end; i += 2) {
-      writer.PutTwo(ToNumber(counts[i] - previous), ToNumber(counts[i + 1] - counts[i]));
-      previous = counts[i + 1];
+    for (i = begin; i < end; i += kBlock) {
+      const size_t num = std::min(kBlock, end - i);
+      ToNumbers(&counts[i], num, previous, numbers.data());
+      for (size_t k = 0; k + 1 < num; k += 2) writer.PutTwo(numbers[k], numbers[k + 1]);
+      if (num % 2 == 1) writer.Put(numbers[num - 1]);
+      previous = counts[i + num - 1];
     }
-    if (i < end) {
-      writer.Put(ToNumber(counts[i] - previous));
-      previous = counts[i++];
-    }
+    i = end;
   }
   return writer.Finish();
 }

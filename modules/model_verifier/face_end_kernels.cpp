@@ -69,11 +69,14 @@ HWY_INLINE void AddPixels(const RaySolid& box, const RayWindow& window, const Fa
   const auto cosine =
       hn::Mul(Constant(static_cast<float>(end.face_sign)), Dot(box.R_OC + 3 * end.face_axis, n_C));
   const auto is_turned = hn::And(IsKnown(n_C), hn::Lt(cosine, Constant(limits.min_normal_cos)));
-  const auto is_other = hn::Or(is_turned, hn::Lt(signed_z, hn::Zero(f)));
-  const auto is_behind = hn::Gt(behind, tolerance);
+  const auto is_other = hn::Lt(signed_z, hn::Zero(f));
+  const auto is_behind = hn::Gt(behind, hn::Add(tolerance, tolerance));
   const auto is_gone = hn::Or(is_behind, is_other);
+  // A face that bends, or an edge that the sensor blurs, is not free space.
+  const auto is_unsure = hn::AndNot(is_gone, hn::Or(is_turned, hn::Gt(behind, tolerance)));
   const auto is_unknown = hn::Eq(z, hn::Zero(f));
-  const auto is_counted = hn::And(is_near, hn::Or(is_unknown, hn::Ge(behind, hn::Neg(tolerance))));
+  const auto is_counted = hn::AndNot(
+      is_unsure, hn::And(is_near, hn::Or(is_unknown, hn::Ge(behind, hn::Neg(tolerance)))));
   // What touches the face rises from where it is measured; what is behind is seen past the face.
   const auto outward =
       hn::Add(hit.outward, hn::IfThenElseZero(hn::AndNot(hn::Or(is_behind, is_unknown), is_other),

@@ -32,12 +32,13 @@ struct EndProfile {
   static constexpr int kNumBins = 80;
 
   int32_t there[kNumBins] = {};    // measured on the face
-  int32_t gone[kNumBins] = {};     // measured behind it, on another surface or on another object
+  int32_t gone[kNumBins] = {};     // measured well behind it, or on another object
   int32_t unknown[kNumBins] = {};  // not measured
 };
 
 // Adds the pixels of a window to a profile. What is measured in front of the face says nothing of
-// it. A negative depth is one that is known to be measured on another object.
+// it, nor does what is just behind it or turned away: faces bend, and sensors blur edges. A
+// negative depth is one that is known to be measured on another object.
 void AddToProfile(const RaySolid& box, const RayWindow& window, const FaceLimits& limits,
                   const FaceEnd& end, EndProfile* profile);
 

@@ -13,12 +13,18 @@ namespace {
 
 constexpr double kBin = 0.0005;          // [m]
 constexpr double kMaxShrinkage = 0.015;  // [m] that an end moves inward at most
+// [m] the same while solids still compete, seen by thinned pixels of which nobody knows whose they
+// are: more would cut a box down to the part of something else that happens to be flat.
+constexpr double kMaxEarlyShrinkage = 0.006;
 constexpr double kMaxGrowth = kBin * EndProfile::kNumBins - kMaxShrinkage;  // [m] and outward
 constexpr double kBlur = 0.002;  // [m] around an end where pixels of both sides mix
 constexpr int kMinThere = 30;    // [px] of a face near its end
 // What pixels count. Another object may continue a face, but nothing of a solid is where free space
-// is; pixels without depth are mostly those of what is behind an edge, in the sensor's shadow.
-constexpr int kThere = 4, kGone = 8, kUnknown = 1;
+// is.
+constexpr int kThere = 1, kGone = 2;
+// What a pixel without depth counts beside one that is gone, where both mix: mostly it is one of
+// what is behind an edge, in the sensor's shadow.
+constexpr double kUnknown = 0.25;
 
 FaceLimits MakeLimits() {
   FaceLimits limits;
@@ -57,8 +63,7 @@ std::optional<double> EndIn(const EndProfile& profile, int pixel_weight) {
   int least = cost;
   int best = 0;
   for (int i = 1; i <= kNumBins; ++i) {
-    cost += kGone * profile.gone[i - 1] + kUnknown * profile.unknown[i - 1] -
-            kThere * profile.there[i - 1];
+    cost += kGone * profile.gone[i - 1] - kThere * profile.there[i - 1];
     if (cost < least || (cost == least && std::abs(i - kNow) < std::abs(best - kNow))) {
       least = cost;
       best = i;
@@ -69,7 +74,7 @@ std::optional<double> EndIn(const EndProfile& profile, int pixel_weight) {
   double end = low;
   for (int i = low; i < std::min(kNumBins, best + kReach); ++i) {
     const double there = profile.there[i];
-    const double all = there + profile.gone[i] + 0.25 * profile.unknown[i];
+    const double all = there + profile.gone[i] + kUnknown * profile.unknown[i];
     end += all > 0 ? there / all : static_cast<double>(i < best);
   }
   return end;
@@ -93,7 +98,8 @@ std::optional<double> ShiftOfEnd(const Solid& box, int axis, int sign,
   }
   const auto end = EndIn(profile, observation.grid.pixel_weight());
   if (!end) return std::nullopt;
-  return kBin * *end - kMaxShrinkage;
+  const double max_shrinkage = observation.grid.step > 1 ? kMaxEarlyShrinkage : kMaxShrinkage;
+  return std::max(kBin * *end - kMaxShrinkage, -max_shrinkage);
 }
 
 }  // namespace declutter

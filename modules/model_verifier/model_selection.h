@@ -34,9 +34,9 @@ struct Candidate {
 };
 
 // The set of solids that explains the image best: takes the hypothesis that explains the most
-// pixels nobody else explains, again and again, until none explains enough; then exchanges those
-// whose place another fills better. What is left unexplained then is proposed for. Solids do not
-// share space. Buffers are used again for the next frame.
+// pixels nobody else explains, again and again, until none explains enough; proposes more for what
+// is left; then exchanges those whose place another fills better. Solids do not share space.
+// Buffers are used again for the next frame.
 class ModelSelection {
  public:
   explicit ModelSelection(const ModelVerifierConfig& config) : config_(config) {}
@@ -55,10 +55,12 @@ class ModelSelection {
     FitBuffers* buffers;
   };
 
+  void AddCandidates(const std::vector<Hypothesis>& hypotheses, const Input& input);
   void SelectBest(const Input& input);
+  // model_selection_late.cpp
   void ProposeAboveBlockers(const Input& input);
   void ProposeForUnexplained(const Input& input);
-  void AddCandidates(const std::vector<Hypothesis>& hypotheses, const Input& input);
+  // model_selection_exchange.cpp
   bool Exchange(const Input& input);
   bool IsWorthTrying(size_t index);
   std::vector<size_t> BlockersOf(size_t index);
@@ -66,8 +68,12 @@ class ModelSelection {
                double share_of_old = 1);
   bool Split(size_t old, const Input& input);
   bool CutLower(size_t old, const Input& input);
+  bool Reshape(size_t old, const Input& input);
+  std::optional<size_t> BestOver(const std::vector<uint8_t>& is_marked, const Candidate& candidate,
+                                 const Input& input);
   bool ReplaceByParts(const std::vector<Solid>& parts, size_t old, double share_of_old,
                       const Input& input);
+  // model_selection.cpp
   std::optional<size_t> AddRefined(const Hypothesis& hypothesis, double min_px, const Input& input);
   std::optional<size_t> Best(const Input& input);
   bool RefineRivals(const Candidate& best, const Input& input);

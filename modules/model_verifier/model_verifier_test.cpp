@@ -85,6 +85,19 @@ TEST(ModelVerifier, PrefersTheShapeThatFits) {
   EXPECT_EQ(list.objects[0].solid.shape, Shape::kCylinder);
 }
 
+TEST(ModelVerifier, TriesTheOtherShapeWhereTheProposedOneFitsBadly) {
+  // A box in front hides much of the can.
+  const RenderedScene scene = RenderText(
+      "object { cylinder { radius_m: 0.03 height_m: 0.1 } y_m: 0.7 }"
+      "object { box { size_x_m: 0.1 size_y_m: 0.04 size_z_m: 0.07 } x_m: -0.06 y_m: 0.62 }");
+  Solid box = Changed(scene.objects[0].solid, {0, 0, 0}, {-0.008, -0.008, 0});
+  box.shape = Shape::kBox;
+  const ObjectList list = Verify(scene, {Proposal(box), Proposal(scene.objects[1].solid)});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  EXPECT_EQ(list.objects[1].solid.shape, Shape::kCylinder);
+  EXPECT_NEAR(list.objects[1].solid.radius(), 0.03, 0.003);
+}
+
 TEST(ModelVerifier, SetsAStackOnEachOther) {
   const RenderedScene scene = RenderText(
       "object { box { size_x_m: 0.2 size_y_m: 0.2 size_z_m: 0.06 } y_m: 0.65 }"

@@ -79,6 +79,10 @@ void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper, doub
 
 }  // namespace
 
+bool IsUpright(const Solid& solid, const Plane& support) {
+  return solid.X_CO.linear().col(2).dot(support.normal) > 0.99;
+}
+
 double TopOf(const Solid& solid, const Plane& support) {
   return support.Height(solid.X_CO.translation()) + HalfExtent(solid, support);
 }

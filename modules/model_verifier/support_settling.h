@@ -13,6 +13,9 @@ namespace declutter {
 void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects,
                       RayEvidence* buffer);
 
+// True for a solid whose z axis is the support normal.
+bool IsUpright(const Solid& solid, const Plane& support);
+
 // [m] of the highest point of a solid above the support plane.
 double TopOf(const Solid& solid, const Plane& support);
 

@@ -19,6 +19,12 @@ bool HasMarked(const uint8_t* row, int width) {
   return std::memchr(row, 1, static_cast<size_t>(width)) != nullptr;
 }
 
+DECLUTTER_FOR_EACH_PROCESSOR int NumMarked(const uint8_t* mask, size_t num) {
+  int num_marked = 0;
+  for (size_t i = 0; i < num; ++i) num_marked += mask[i];
+  return num_marked;
+}
+
 // 0 where not marked.
 DECLUTTER_FOR_EACH_PROCESSOR void Select(const float* values, const uint8_t* marked, size_t num,
                                          float* selected) {
@@ -101,7 +107,7 @@ float OutlierFilter::MeanOfNearest(size_t u, int v, float guess) const {
 // The mean distance from which a point is an outlier. Outliers themselves are left out of the
 // second estimate: a handful would set the limit.
 float OutlierFilter::MaxMeanDistance(const InverseDepth& image, const PixelMask& mask) {
-  const auto num_marked = static_cast<double>(std::count(mask.begin(), mask.end(), 1));
+  const double num_marked = NumMarked(mask.data(), mask.size());
   const int stride = std::max(1, static_cast<int>(std::sqrt(num_marked / kStatisticsPixels)));
   means_.clear();
   for (int v = 0; v < image.height; v += stride) {

@@ -1,98 +1,29 @@
 #include "modules/plane_filter/plane_search.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
-#include "modules/geometry/for_each_processor.h"
 #include "modules/geometry/marked_pixels.h"
 #include "modules/plane_filter/pixel_kernels.h"
+#include "modules/plane_filter/plane_samples.h"
 
 namespace declutter {
 namespace {
 
-// Half widths of the windows that samples lie in, in turn: far-apart pixels rarely share a small
-// plane, and near ones fix a large plane badly.
-constexpr int kSampleReaches[] = {14, 6};
-
 // Where a plane cuts through another surface, the residuals fill the band evenly, with a root mean
 // square of 0.58 of its half width; the sensor's noise stays below this part of it.
 constexpr double kMaxRmsOfBand = 0.5;
+
+// Draws for each sample, on average, of which most meet a gap where little is left.
+constexpr int kMaxDrawsOfSample = 20;
 
 // Inliers among an inlier and its 8 neighbours.
 constexpr int kMinAmid = 7;
 
 int NumMarked(const PixelMask& mask) {
   return static_cast<int>(std::count(mask.begin(), mask.end(), 1));
-}
-
-int Draw(RandomIndex* random, int size) {
-  return static_cast<int>((*random)(static_cast<size_t>(size)));
-}
-
-std::optional<InversePlane> PlaneThrough(const InverseDepth& grid,
-                                         const std::array<Eigen::Vector2i, 3>& pixels) {
-  Eigen::Matrix3d rays;
-  Eigen::Vector3d values;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector2i& pixel = pixels[static_cast<size_t>(i)];
-    rays.row(i) << grid.ray_x[static_cast<size_t>(pixel.x())],
-        grid.ray_y[static_cast<size_t>(pixel.y())], 1.0;
-    values[i] = grid.values[grid.Index(pixel.x(), pixel.y())];
-  }
-  if (std::abs(rays.determinant()) < 1e-6) return std::nullopt;
-  const Eigen::Vector3f plane = (rays.inverse() * values).cast<float>();
-  return InversePlane{plane.x(), plane.y(), plane.z()};
-}
-
-// Where draws begin, one after the other, when all those before begin at a gap.
-constexpr size_t kNumAhead = 8;
-DECLUTTER_FOR_EACH_PROCESSOR void LookAhead(RandomIndex random, size_t width, size_t height,
-                                            uint64_t* pixels) {
-  for (size_t i = 0; i < kNumAhead; ++i) {
-    const size_t u = random(width);
-    pixels[i] = random(height) * width + u;
-  }
-}
-
-// Leaves out draws, at most max_num, that begin at a gap, and returns how many.
-int SkipGaps(const InverseDepth& grid, int max_num, RandomIndex* random) {
-  uint64_t pixels[kNumAhead];
-  int num = 0;
-  while (num < max_num) {
-    LookAhead(*random, static_cast<size_t>(grid.width), static_cast<size_t>(grid.height), pixels);
-    uint32_t measured = 1u << kNumAhead;
-    for (size_t i = 0; i < kNumAhead; ++i) {
-      measured |= static_cast<uint32_t>(grid.values[pixels[i]] > 0) << i;
-    }
-    const int num_gaps = std::min(__builtin_ctz(measured), max_num - num);
-    random->Skip(2 * static_cast<size_t>(num_gaps));
-    num += num_gaps;
-    if (num_gaps < static_cast<int>(kNumAhead)) break;
-  }
-  return num;
-}
-
-// Three pixels near each other with a measurement; nullopt when the draw met a gap.
-std::optional<InversePlane> SamplePlane(const InverseDepth& grid, int reach, RandomIndex* random) {
-  std::array<Eigen::Vector2i, 3> pixels;
-  for (int i = 0; i < 3; ++i) {
-    Eigen::Vector2i& pixel = pixels[static_cast<size_t>(i)];
-    if (i == 0) {
-      pixel = {Draw(random, grid.width), Draw(random, grid.height)};
-    } else {
-      pixel = pixels[0] + Eigen::Vector2i(Draw(random, 2 * reach + 1) - reach,
-                                          Draw(random, 2 * reach + 1) - reach);
-    }
-    if (pixel.x() < 0 || pixel.x() >= grid.width || pixel.y() < 0 || pixel.y() >= grid.height ||
-        grid.values[grid.Index(pixel.x(), pixel.y())] <= 0) {
-      return std::nullopt;
-    }
-  }
-  return PlaneThrough(grid, pixels);
 }
 
 }  // namespace
@@ -150,14 +81,10 @@ void PlaneSearch::ListMeasured() {
 std::optional<InversePlane> PlaneSearch::BestSample(float band, RandomIndex* random) const {
   std::optional<InversePlane> best;
   int best_count = 0;
-  // Draws that meet a gap are repeated, but not for ever.
-  const int num_samples = config_.num_samples(), max_draws = 20 * num_samples;
-  for (int sampled = 0, drawn = 0; sampled < num_samples && drawn < max_draws; ++drawn) {
-    drawn += SkipGaps(rest_, max_draws - drawn, random);
-    if (drawn == max_draws) break;
-    const std::optional<InversePlane> plane = SamplePlane(rest_, kSampleReaches[drawn % 2], random);
-    if (!plane) continue;
-    ++sampled;
+  PlaneSamples samples(rest_, kMaxDrawsOfSample * config_.num_samples(), random);
+  for (int i = 0; i < config_.num_samples(); ++i) {
+    const std::optional<InversePlane> plane = samples.Next();
+    if (!plane) break;
     const int count =
         CountPlaneInliers(measured_.x.data(), measured_.y.data(), measured_.values.data(),
                           measured_.num, plane->a, plane->b, plane->c, band, best_count);

@@ -1,0 +1,80 @@
+#include <algorithm>
+
+#include "modules/model_verifier/late_proposals.h"
+#include "modules/model_verifier/model_selection.h"
+#include "modules/model_verifier/support_settling.h"
+
+namespace declutter {
+
+// Tries candidates that reach down into selected ones as what stands on those: a side that goes on
+// below may have been taken for theirs.
+void ModelSelection::ProposeAboveBlockers(const Input& input) {
+  constexpr double kMinHeight = 0.015;  // [m] that can be grasped
+  const Plane& support = input.observation.support;
+  const size_t num = num_candidates_;
+  for (size_t i = 0; i < num; ++i) {
+    const Candidate& candidate = candidates_[i];
+    if (candidate.is_out || candidate.is_selected || candidate.num_blockers == 0 ||
+        !IsUpright(candidate.hypothesis.solid, support)) {
+      continue;
+    }
+    const double top = TopOf(candidate.hypothesis.solid, support);
+    double floor = top - candidate.hypothesis.solid.height();
+    const double bottom = floor;
+    double rivals_gain = 0;
+    for (const size_t blocker : BlockersOf(i)) {
+      const Solid& solid = candidates_[blocker].hypothesis.solid;
+      const double top_below = TopOf(solid, support);
+      if (IsUpright(solid, support) && top_below < top - kMinHeight) {
+        floor = std::max(floor, top_below);
+      } else {
+        rivals_gain += candidates_[blocker].selection_gain;
+      }
+    }
+    if (floor == bottom ||
+        candidate.evidence.Balance() < std::max(config_.min_explained_px(), rivals_gain)) {
+      continue;
+    }
+    Hypothesis upper = candidate.hypothesis;
+    upper.solid.X_CO = upper.solid.X_CO * Eigen::Translation3d(0, 0, 0.5 * (floor - bottom));
+    upper.solid.size.z() = top - floor;
+    AddRefined(upper, config_.min_explained_px(), input);
+  }
+  SelectBest(input);
+}
+
+// Tries solids over what no selected one explains. Nothing voted for them, so that they must
+// explain most of what they were laid over, as well as noise allows, and little of what others do.
+void ModelSelection::ProposeForUnexplained(const Input& input) {
+  constexpr double kMinShare =
+      0.5;  // of the points it was laid over that a solid explains, before and after it is refined
+  constexpr double kMinFit = 0.8;       // of a pixel: noise leaves 8 / 9
+  constexpr double kMinUnshared = 0.6;  // of what speaks for it, from pixels of its own
+  std::vector<Solid> selected;
+  std::vector<uint8_t> is_explained = num_explaining_;
+  for (const size_t i : selected_) {
+    const Hypothesis& hypothesis = candidates_[i].hypothesis;
+    selected.push_back(hypothesis.solid);
+    if (hypothesis.evidence[2] != Evidence::kAssumed) continue;
+    // What is below may be its own lower part.
+    const Solid longer = ExtendedToSupport(hypothesis.solid, input.observation.support);
+    for (const int32_t pixel : CastRays(longer, input.observation).explained) {
+      is_explained[static_cast<size_t>(pixel)] = 1;
+    }
+  }
+  for (const LateProposal& proposal : declutter::ProposeForUnexplained(
+           selected, is_explained, config_.min_explained_px(), input.observation)) {
+    const auto added = AddRefined(proposal.hypothesis, kMinShare * proposal.num_px, input);
+    if (!added) continue;
+    Candidate& candidate = candidates_[*added];
+    const RayEvidence& evidence = candidate.evidence;
+    if (Gain(&candidate) < kMinShare * proposal.num_px ||
+        evidence.Fit() < kMinFit * evidence.num_explained() ||
+        UnsharedFit(evidence) < kMinUnshared * evidence.Fit()) {
+      --num_candidates_;
+    }
+  }
+  SelectBest(input);
+}
+
+}  // namespace declutter
