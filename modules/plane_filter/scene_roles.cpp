@@ -49,43 +49,32 @@ Eigen::Vector3d PointOf(const InverseDepth& grid, int u, int v) {
          grid.values[grid.Index(u, v)];
 }
 
-// Part of the region of a candidate whose points in C satisfy a condition.
+// Part of the points that satisfy a condition.
 template <typename Condition>
-double PartOf(const InverseDepth& grid, const PlaneCandidates& candidates, size_t k,
-              Condition condition) {
-  int num_pixels = 0;
-  int num_true = 0;
-  for (int v = 0; v < grid.height; ++v) {
-    for (int u = 0; u < grid.width; ++u) {
-      if (!candidates.IsIn(grid.Index(u, v), k)) continue;
-      ++num_pixels;
-      num_true += condition(PointOf(grid, u, v));
-    }
-  }
-  return num_pixels > 0 ? static_cast<double>(num_true) / num_pixels : 0;
+double PartOf(const std::vector<Eigen::Vector3d>& points, Condition condition) {
+  if (points.empty()) return 0;
+  const auto num_true = std::count_if(points.begin(), points.end(), condition);
+  return static_cast<double>(num_true) / static_cast<double>(points.size());
 }
 
-// Whether most of the region of candidate j is over the hull of a carrier, within the heights of
+// Whether most of the region of a plane is over the hull of a carrier, within the heights of
 // objects.
-bool StandsOn(const InverseDepth& grid, const PlaneCandidates& candidates, size_t j,
-              const Carrier& carrier, const PlaneFilterConfig& config) {
-  return PartOf(grid, candidates, j, [&](const Eigen::Vector3d& p_C) {
+bool StandsOn(const Carrier& plane, const Carrier& carrier, const PlaneFilterConfig& config) {
+  return PartOf(plane.region, [&](const Eigen::Vector3d& p_C) {
            const double height = carrier.plane.Height(p_C);
            return height > config.object_height_m() && height < config.max_height_m() &&
                   carrier.prism.Contains(p_C);
          }) > kStandingPart;
 }
 
-// Whether candidate j is a wall to the main support k, with these planes.
-bool IsWall(const InverseDepth& grid, const PlaneCandidates& candidates, size_t j,
-            const Plane& plane, size_t k, const Plane& main_plane) {
-  if (plane.normal.dot(main_plane.normal) > std::cos(kMinWallAngle)) return false;
-  const double part_behind = PartOf(grid, candidates, k, [&](const Eigen::Vector3d& p_C) {
-    return plane.Height(p_C) < -kBehind;
-  });
+// Whether a plane is a wall to the main support.
+bool IsWall(const InverseDepth& grid, const Carrier& wall, const Carrier& main) {
+  if (wall.plane.normal.dot(main.plane.normal) > std::cos(kMinWallAngle)) return false;
+  const double part_behind = PartOf(
+      main.region, [&](const Eigen::Vector3d& p_C) { return wall.plane.Height(p_C) < -kBehind; });
   const double lost_angle = kLostRows * (grid.ray_y[1] - grid.ray_y[0]);
-  const double part_low = PartOf(grid, candidates, j, [&](const Eigen::Vector3d& p_C) {
-    return main_plane.Height(p_C) < kMaxWallBase + lost_angle * p_C.z();
+  const double part_low = PartOf(wall.region, [&](const Eigen::Vector3d& p_C) {
+    return main.plane.Height(p_C) < kMaxWallBase + lost_angle * p_C.z();
   });
   return part_behind < kMaxPartBehindWall && part_low > 0;
 }
@@ -152,7 +141,17 @@ void SceneRoles::MakeCarriers(const InverseDepth& grid, const PlaneCandidates& c
   for (size_t k = 0; k < candidates.planes.size(); ++k) {
     const InversePlane& plane = candidates.planes[k].plane;
     const auto& hull_T = hull_.Find(grid, plane, candidates.region_of, static_cast<uint8_t>(k + 1));
-    carriers_[k] = {plane.ToPlane(), Prism(plane, hull_T, 0.0, std::move(carriers_[k].prism))};
+    Carrier& carrier = carriers_[k];
+    carrier.plane = plane.ToPlane();
+    carrier.prism = Prism(plane, hull_T, 0.0, std::move(carrier.prism));
+    carrier.region.clear();
+    carrier.pixels = carrier.load = 0;
+  }
+  for (int v = 0; v < grid.height; ++v) {
+    for (int u = 0; u < grid.width; ++u) {
+      const size_t own = candidates.region_of[grid.Index(u, v)];
+      if (own > 0) carriers_[own - 1].region.push_back(PointOf(grid, u, v));
+    }
   }
 }
 
@@ -167,8 +166,8 @@ void SceneRoles::FindNotLoad(const InverseDepth& grid, const PlaneCandidates& ca
     bool load = false;
     for (size_t k = 0; k < num && !load; ++k) {
       load = k != j && Angle(carriers_[k].plane.normal, plane.normal) > kMaxLevelAngle &&
-             StandsOn(grid, candidates, j, carriers_[k], config_) &&
-             !IsWall(grid, candidates, j, plane, k, carriers_[k].plane);
+             StandsOn(carriers_[j], carriers_[k], config_) &&
+             !IsWall(grid, carriers_[j], carriers_[k]);
     }
     if (load) continue;
     inliers_ = PlaneInliers(grid, candidates.planes[j].plane, band, std::move(inliers_));
@@ -231,11 +230,11 @@ void SceneRoles::Assign(const InverseDepth& grid, const PlaneCandidates& candida
   for (size_t k = 0; k < planes.size(); ++k) {
     if (k == main) continue;
     const Plane& plane = carriers_[k].plane;
-    if (IsWall(grid, candidates, k, plane, main, main_plane)) {
+    if (IsWall(grid, carriers_[k], carriers_[main])) {
       walls_.push_back(planes[k].plane);
     } else if (Angle(plane.normal, main_plane.normal) <= config_.max_parallel_angle_rad() &&
                planes[k].num_pixels >= MinSupportPixels(grid) &&
-               !StandsOn(grid, candidates, k, carriers_[main], config_)) {
+               !StandsOn(carriers_[k], carriers_[main], config_)) {
       supports_.push_back(k);
     }
   }

@@ -12,10 +12,11 @@ namespace declutter {
 
 // A dominant plane as a support.
 struct Carrier {
-  Plane plane;        // in C
-  Prism prism;        // over its hull
-  double pixels = 0;  // weighted number of pixels in the plane
-  double load = 0;    // weighted number of pixels that stand on it
+  Plane plane;                          // in C
+  Prism prism;                          // over its hull
+  std::vector<Eigen::Vector3d> region;  // points of its region in C
+  double pixels = 0;                    // weighted number of pixels in the plane
+  double load = 0;                      // weighted number of pixels that stand on it
 };
 
 // What the dominant planes of a scene are.
