@@ -9,7 +9,7 @@ namespace declutter {
 namespace {
 
 // After which the place of a solid no longer depends on where it was proposed.
-constexpr int kMaxFits = 3;
+constexpr int kMaxFits = 2;
 constexpr double kRest = 5e-5;  // [m] of a fit after which a solid is left
 
 // How far a solid was moved, or its size changed [m].
