@@ -46,10 +46,10 @@ void ModelSelection::ProposeAboveBlockers(const Input& input) {
 // Tries solids over what no selected one explains. Nothing voted for them, so that they must
 // explain most of what they were laid over, as well as noise allows, and little of what others do.
 void ModelSelection::ProposeForUnexplained(const Input& input) {
-  constexpr double kMinShare =
-      0.5;  // of the points it was laid over that a solid explains, before and after it is refined
-  constexpr double kMinFit = 0.8;       // of a pixel: noise leaves 8 / 9
-  constexpr double kMinUnshared = 0.6;  // of what speaks for it, from pixels of its own
+  constexpr double kMinShare = 0.7;        // of the points it was laid over that a solid explains
+  constexpr double kMinShareBefore = 0.5;  // the same before it is refined
+  constexpr double kMinFit = 0.8;          // of a pixel: noise leaves 8 / 9
+  constexpr double kMinUnshared = 0.8;     // of what speaks for it, from pixels of its own
   std::vector<Solid> selected;
   std::vector<uint8_t> is_explained = num_explaining_;
   for (const size_t i : selected_) {
@@ -64,7 +64,7 @@ void ModelSelection::ProposeForUnexplained(const Input& input) {
   }
   for (const LateProposal& proposal : declutter::ProposeForUnexplained(
            selected, is_explained, config_.min_explained_px(), input.observation)) {
-    const auto added = AddRefined(proposal.hypothesis, kMinShare * proposal.num_px, input);
+    const auto added = AddRefined(proposal.hypothesis, kMinShareBefore * proposal.num_px, input);
     if (!added) continue;
     Candidate& candidate = candidates_[*added];
     const RayEvidence& evidence = candidate.evidence;

@@ -49,11 +49,13 @@ void CountExplaining(const std::vector<RayEvidence>& evidence, size_t num_object
   }
 }
 
-// True when enough speaks for an object in its final place that speaks for no other; of one of
-// which no extent is seen, twice as much must be seen at all.
+// True when enough speaks for an object in its final place that speaks for no other, and it is not
+// mostly others that the rest speaks for; of one of which no extent is seen, twice as much must be
+// seen at all.
 bool IsSupported(const ObjectModel& object, const RayEvidence& evidence,
                  const std::vector<uint8_t>& num_explaining, double min_px) {
-  double unshared = 0;  // [kFitUnit]
+  constexpr double kMinOwnShare = 0.4;  // of what speaks for it
+  double unshared = 0;                  // [kFitUnit]
   for (size_t k = 0; k < evidence.explained.size(); ++k) {
     const bool is_shared = num_explaining[static_cast<size_t>(evidence.explained[k])] > 1;
     unshared += is_shared ? 0 : evidence.fits[k];
@@ -62,7 +64,8 @@ bool IsSupported(const ObjectModel& object, const RayEvidence& evidence,
                          evidence.num_overhanging;
   const bool is_seen = std::any_of(object.evidence.begin(), object.evidence.end(),
                                    [](Evidence extent) { return extent != Evidence::kAssumed; });
-  return balance >= min_px && (is_seen || evidence.num_explained() >= 2 * min_px);
+  return balance >= std::max(min_px, kMinOwnShare * evidence.Fit()) &&
+         (is_seen || evidence.num_explained() >= 2 * min_px);
 }
 
 // Takes the pixels of objects out of a grid of all pixels.
