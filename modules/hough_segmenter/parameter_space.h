@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "modules/hough_segmenter/model_fits.h"
-#include "modules/hough_segmenter/reused_list.h"
+#include "modules/geometry/reused_list.h"
 
 namespace declutter {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/hough_segmenter/reused_list.h"
+#include "modules/geometry/reused_list.h"
 #include "modules/hough_segmenter/table_points.h"
 
 namespace declutter {

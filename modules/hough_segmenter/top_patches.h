@@ -10,7 +10,7 @@
 #include "modules/geometry/tabletop.h"
 #include "modules/hough_segmenter/height_bands.h"
 #include "modules/hough_segmenter/planar_points.h"
-#include "modules/hough_segmenter/reused_list.h"
+#include "modules/geometry/reused_list.h"
 #include "modules/hough_segmenter/table_points.h"
 
 namespace declutter {

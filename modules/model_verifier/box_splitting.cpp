@@ -58,16 +58,15 @@ Solid BoxOver(const Footprint& footprint, const Solid& box) {
 
 }  // namespace
 
-std::optional<std::array<Solid, 2>> SplitBox(const Solid& box,
-                                             const std::vector<Eigen::Vector3d>& points_O) {
+std::optional<std::array<Solid, 2>> BoxSplitter::Split(
+    const Solid& box, const std::vector<Eigen::Vector3d>& points_O) {
   std::optional<std::array<Solid, 2>> best;
-  Coordinates buffer;
   double best_area = kMaxArea * box.size.x() * box.size.y();
   for (int axis = 0; axis < 2; ++axis) {
     for (int k = 1; k < kNumCuts; ++k) {
       const double cut = box.size[axis] * (static_cast<double>(k) / kNumCuts - 0.5);
-      const auto lower = Around(points_O, axis, -box.size[axis], cut, &buffer);
-      const auto upper = Around(points_O, axis, cut, box.size[axis], &buffer);
+      const auto lower = Around(points_O, axis, -box.size[axis], cut, &coordinates_);
+      const auto upper = Around(points_O, axis, cut, box.size[axis], &coordinates_);
       if (!lower || !upper || lower->area() + upper->area() >= best_area) continue;
       best_area = lower->area() + upper->area();
       best = {BoxOver(*lower, box), BoxOver(*upper, box)};

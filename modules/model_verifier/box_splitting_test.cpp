@@ -22,12 +22,12 @@ void AddTop(double x0, double y0, double x1, double y1, std::vector<Eigen::Vecto
   }
 }
 
-TEST(SplitBox, FindsTwoBoxesOfOneHeight) {
+TEST(BoxSplitter, FindsTwoBoxesOfOneHeight) {
   const Solid box = BoxOf({0.14, 0.09, 0.04});
   std::vector<Eigen::Vector3d> points_O;
   AddTop(-0.07, -0.045, 0.0, 0.045, &points_O);
   AddTop(0.002, -0.045, 0.07, 0.0, &points_O);
-  const auto parts = SplitBox(box, points_O);
+  const auto parts = BoxSplitter().Split(box, points_O);
   ASSERT_TRUE(parts);
   const double tolerance = 0.006;
   EXPECT_TRUE((*parts)[0].size.isApprox(Eigen::Vector3d(0.07, 0.09, 0.04), 0.08));
@@ -36,17 +36,17 @@ TEST(SplitBox, FindsTwoBoxesOfOneHeight) {
   EXPECT_LT((second_O - Eigen::Vector3d(0.035, -0.0225, 0)).norm(), tolerance);
 }
 
-TEST(SplitBox, LeavesABoxThatIsFilledWhole) {
+TEST(BoxSplitter, LeavesABoxThatIsFilledWhole) {
   std::vector<Eigen::Vector3d> points_O;
   AddTop(-0.07, -0.045, 0.07, 0.045, &points_O);
-  EXPECT_FALSE(SplitBox(BoxOf({0.14, 0.09, 0.04}), points_O));
+  EXPECT_FALSE(BoxSplitter().Split(BoxOf({0.14, 0.09, 0.04}), points_O));
 }
 
-TEST(SplitBox, MakesNoPartThatIsTooThinToGrasp) {
+TEST(BoxSplitter, MakesNoPartThatIsTooThinToGrasp) {
   std::vector<Eigen::Vector3d> points_O;
   AddTop(-0.07, -0.045, 0.07, -0.034, &points_O);
   AddTop(-0.07, -0.032, -0.06, 0.045, &points_O);
-  EXPECT_FALSE(SplitBox(BoxOf({0.14, 0.09, 0.04}), points_O));
+  EXPECT_FALSE(BoxSplitter().Split(BoxOf({0.14, 0.09, 0.04}), points_O));
 }
 
 }  // namespace

@@ -1,31 +1,17 @@
 #include "modules/model_verifier/late_proposals.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "modules/geometry/convex_hull.h"
 #include "modules/geometry/plane.h"
-#include "modules/model_verifier/part_completion.h"
 #include "modules/model_verifier/projection.h"
 #include "modules/model_verifier/ray_casting.h"
-#include "modules/model_verifier/surface_parts.h"
 
 namespace declutter {
 namespace {
 
 constexpr double kMargin = 0.10;    // [m] around the selected solids
 constexpr float kMinHeight = 1.5f;  // [tolerances] of points that need an explanation
-
-// The convex hull of solids seen from above, with a margin.
-ConvexRegion RegionOf(const std::vector<Solid>& solids, const Eigen::Isometry3d& X_TC) {
-  std::vector<Eigen::Vector2d> corners;
-  for (const Solid& solid : solids) {
-    for (int k = 0; k < 8; ++k) {
-      const Eigen::Vector3d sign((k & 1) - 0.5, ((k >> 1) & 1) - 0.5, ((k >> 2) & 1) - 0.5);
-      corners.push_back((X_TC * (solid.X_CO * sign.cwiseProduct(solid.size))).head<2>());
-    }
-  }
-  return ConvexRegion(ConvexHull(corners), kMargin);
-}
 
 // What all solids with a margin project to.
 PixelWindow WindowOf(const std::vector<Solid>& solids, const Observation& observation) {
@@ -38,13 +24,14 @@ PixelWindow WindowOf(const std::vector<Solid>& solids, const Observation& observ
   return all;
 }
 
-// Marks the points of a window that need an explanation and have none.
-std::vector<uint8_t> MarkUnexplained(const std::vector<uint8_t>& is_explained,
-                                     const PixelWindow& window, const Observation& observation) {
+// Marks the points of a window that need an explanation and have none, and no others.
+void MarkUnexplained(const std::vector<uint8_t>& is_explained, const PixelWindow& window,
+                     const Observation& observation, std::vector<uint8_t>* marked) {
   const PixelGrid& grid = observation.grid;
   const Eigen::Vector3f up = observation.support.normal.cast<float>();
   const auto camera_height = static_cast<float>(observation.support.d);
-  std::vector<uint8_t> is_marked(is_explained.size(), 0);
+  std::vector<uint8_t>& is_marked = *marked;
+  is_marked.assign(is_explained.size(), 0);
   for (int v = window.v_begin; v < window.v_end; ++v) {
     const auto row = static_cast<size_t>(v);
     for (int u = window.u_begin; u < window.u_end; ++u) {
@@ -57,7 +44,6 @@ std::vector<uint8_t> MarkUnexplained(const std::vector<uint8_t>& is_explained,
       is_marked[pixel] = height > kMinHeight * static_cast<float>(SurfaceTolerance(z));
     }
   }
-  return is_marked;
 }
 
 bool IsMostlyIn(const ConvexRegion& region, const SurfacePart& part) {
@@ -70,25 +56,38 @@ bool IsMostlyIn(const ConvexRegion& region, const SurfacePart& part) {
 
 }  // namespace
 
-std::vector<LateProposal> ProposeForUnexplained(const std::vector<Solid>& selected,
-                                                const std::vector<uint8_t>& is_explained,
-                                                double min_px, const Observation& observation) {
-  std::vector<LateProposal> proposals;
-  if (selected.empty()) return proposals;
+void LateProposer::SetRegion(const std::vector<Solid>& solids, const Eigen::Isometry3d& X_TC) {
+  corners_.clear();
+  for (const Solid& solid : solids) {
+    for (int k = 0; k < 8; ++k) {
+      const Eigen::Vector3d sign((k & 1) - 0.5, ((k >> 1) & 1) - 0.5, ((k >> 2) & 1) - 0.5);
+      const Eigen::Vector3d corner_T = X_TC * (solid.X_CO * sign.cwiseProduct(solid.size));
+      corners_.push_back(corner_T.head<2>());
+    }
+  }
+  ConvexHull(&corners_, &hull_);
+  region_ = ConvexRegion(hull_, kMargin, std::move(region_));
+}
+
+const std::vector<LateProposal>& LateProposer::ProposeForUnexplained(
+    const std::vector<Solid>& selected, const std::vector<uint8_t>& is_explained, double min_px,
+    const Observation& observation) {
+  proposals_.clear();
+  if (selected.empty()) return proposals_;
   const int pixel_weight = observation.grid.pixel_weight();
   const Eigen::Isometry3d X_TC = TableFrame(observation.support);
   const Eigen::Isometry3d X_CT = X_TC.inverse();
   const PixelWindow window = WindowOf(selected, observation);
-  const std::vector<uint8_t> is_marked = MarkUnexplained(is_explained, window, observation);
-  const ConvexRegion region = RegionOf(selected, X_TC);
-  for (const SurfacePart& part : FindParts(
-           is_marked, window, X_TC, static_cast<size_t>(min_px / pixel_weight), observation)) {
-    if (!IsMostlyIn(region, part)) continue;
-    for (const Hypothesis& hypothesis : SolidsOver(part, X_CT)) {
-      proposals.push_back({hypothesis, pixel_weight * static_cast<int>(part.num_points())});
+  MarkUnexplained(is_explained, window, observation, &is_marked_);
+  SetRegion(selected, X_TC);
+  for (const SurfacePart& part : parts_.Find(
+           is_marked_, window, X_TC, static_cast<size_t>(min_px / pixel_weight), observation)) {
+    if (!IsMostlyIn(region_, part)) continue;
+    for (const Hypothesis& hypothesis : completion_.SolidsOver(part, X_CT)) {
+      proposals_.push_back({hypothesis, pixel_weight * static_cast<int>(part.num_points())});
     }
   }
-  return proposals;
+  return proposals_;
 }
 
 }  // namespace declutter

@@ -47,10 +47,10 @@ std::vector<LateProposal> ProposalsBesideFirst(const RenderedScene& scene) {
   for (const int32_t pixel : CastRays(first, observation).explained) {
     num_explaining[static_cast<size_t>(pixel)] = 1;
   }
-  return ProposeForUnexplained({first}, num_explaining, 150, observation);
+  return LateProposer().ProposeForUnexplained({first}, num_explaining, 150, observation);
 }
 
-TEST(ProposeForUnexplained, LaysABoxOverWhatIsSeenOfOne) {
+TEST(LateProposer, LaysABoxOverWhatIsSeenOfOne) {
   const RenderedScene scene = SceneWith(kHiddenBox);
   const ObjectList found = VerifyFirst(scene);
   ASSERT_THAT(found.objects, SizeIs(2));
@@ -61,14 +61,14 @@ TEST(ProposeForUnexplained, LaysABoxOverWhatIsSeenOfOne) {
   EXPECT_NEAR(box.size.head<2>().minCoeff(), 0.05, 0.004);
 }
 
-TEST(ProposeForUnexplained, LaysACylinderOverWhatIsSeenOfOne) {
+TEST(LateProposer, LaysACylinderOverWhatIsSeenOfOne) {
   const ObjectList found = VerifyFirst(SceneWith(kHiddenCylinder));
   ASSERT_THAT(found.objects, SizeIs(2));
   EXPECT_EQ(found.objects[1].solid.shape, Shape::kCylinder);
   EXPECT_NEAR(found.objects[1].solid.radius(), 0.035, 0.002);
 }
 
-TEST(ProposeForUnexplained, TellsHowMuchASolidWasLaidOver) {
+TEST(LateProposer, TellsHowMuchASolidWasLaidOver) {
   const RenderedScene scene = SceneWith(kHiddenBox);
   int num_seen = 0;
   for (const uint8_t label : scene.labels) num_seen += label == scene.objects[1].label;
@@ -79,11 +79,11 @@ TEST(ProposeForUnexplained, TellsHowMuchASolidWasLaidOver) {
   }
 }
 
-TEST(ProposeForUnexplained, ProposesNothingWhereAllIsExplained) {
+TEST(LateProposer, ProposesNothingWhereAllIsExplained) {
   EXPECT_THAT(ProposalsBesideFirst(SceneWith("")), IsEmpty());
 }
 
-TEST(ProposeForUnexplained, LeavesAloneWhatIsFarFromAllThatWasSelected) {
+TEST(LateProposer, LeavesAloneWhatIsFarFromAllThatWasSelected) {
   const RenderedScene scene = SceneWith(
       "object { box { size_x_m: 0.08 size_y_m: 0.05 size_z_m: 0.10 } x_m: 0.3 y_m: 0.85 }");
   EXPECT_THAT(ProposalsBesideFirst(scene), IsEmpty());

@@ -1,13 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <vector>
 
 #include "modules/geometry/solid.h"
+#include "modules/model_verifier/box_splitting.h"
+#include "modules/model_verifier/late_proposals.h"
 #include "modules/model_verifier/model_verifier.pb.h"
+#include "modules/model_verifier/part_completion.h"
 #include "modules/model_verifier/ray_casting.h"
 #include "modules/model_verifier/surface_fit.h"
+#include "modules/model_verifier/surface_parts.h"
 
 namespace declutter {
 
@@ -63,7 +68,8 @@ class ModelSelection {
   // model_selection_exchange.cpp
   bool Exchange(const Input& input);
   bool IsWorthTrying(size_t index);
-  std::vector<size_t> BlockersOf(size_t index);
+  const std::vector<size_t>& BlockersOf(size_t index);
+  const std::vector<size_t>& Only(size_t index);
   bool Replace(const std::vector<size_t>& old, std::optional<size_t> first, const Input& input,
                double share_of_old = 1);
   bool Split(size_t old, const Input& input);
@@ -71,7 +77,7 @@ class ModelSelection {
   bool Reshape(size_t old, const Input& input);
   std::optional<size_t> BestOver(const std::vector<uint8_t>& is_marked, const Candidate& candidate,
                                  const Input& input);
-  bool ReplaceByParts(const std::vector<Solid>& parts, size_t old, double share_of_old,
+  bool ReplaceByParts(std::initializer_list<Solid> parts, size_t old, double share_of_old,
                       const Input& input);
   // model_selection.cpp
   std::optional<size_t> AddRefined(const Hypothesis& hypothesis, double min_px, const Input& input);
@@ -94,6 +100,19 @@ class ModelSelection {
   size_t num_candidates_ = 0, max_candidates_ = 0;
   std::vector<int8_t> are_rivals_;  // of each pair of candidates: 1, 0 or kUnknown
   std::vector<size_t> selected_;
+
+  LateProposer late_proposer_;
+  PartFinder part_finder_;
+  PartCompletion part_completion_;
+  // Buffers of the functions that are named.
+  std::vector<size_t> blockers_;        // BlockersOf
+  std::vector<size_t> only_;            // Only
+  std::vector<size_t> order_;           // Exchange
+  std::vector<size_t> instead_;         // Replace
+  std::vector<uint8_t> is_own_;         // Reshape
+  BoxSplitter box_splitter_;            // Split
+  std::vector<Solid> selected_solids_;  // ProposeForUnexplained
+  std::vector<uint8_t> is_explained_;
 };
 
 }  // namespace declutter

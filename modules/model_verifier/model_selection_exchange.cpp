@@ -2,11 +2,8 @@
 
 #include "modules/geometry/plane.h"
 #include "modules/geometry/sensor_noise.h"
-#include "modules/model_verifier/box_splitting.h"
 #include "modules/model_verifier/model_selection.h"
-#include "modules/model_verifier/part_completion.h"
 #include "modules/model_verifier/support_settling.h"
-#include "modules/model_verifier/surface_parts.h"
 #include "modules/model_verifier/systematic_misfit.h"
 
 namespace declutter {
@@ -22,13 +19,15 @@ constexpr double kMinImprovement = 1.02;  // of the gain
 // changed.
 bool ModelSelection::Exchange(const Input& input) {
   bool has_changed = false;
-  for (const size_t old : std::vector<size_t>(selected_)) {
-    has_changed |= candidates_[old].is_selected && Replace({old}, std::nullopt, input);
+  order_ = selected_;
+  for (const size_t old : order_) {
+    has_changed |= candidates_[old].is_selected && Replace(Only(old), std::nullopt, input);
   }
   for (size_t i = 0; i < num_candidates_; ++i) {
     if (IsWorthTrying(i)) has_changed |= Replace(BlockersOf(i), i, input);
   }
-  for (const size_t old : std::vector<size_t>(selected_)) {
+  order_ = selected_;
+  for (const size_t old : order_) {
     has_changed |= candidates_[old].is_selected &&
                    (Split(old, input) || CutLower(old, input) || Reshape(old, input));
   }
@@ -48,12 +47,17 @@ bool ModelSelection::IsWorthTrying(size_t index) {
   return candidate.evidence.Balance() > kMinShare * gain;
 }
 
-std::vector<size_t> ModelSelection::BlockersOf(size_t index) {
-  std::vector<size_t> blockers;
+const std::vector<size_t>& ModelSelection::BlockersOf(size_t index) {
+  blockers_.clear();
   for (const size_t i : selected_) {
-    if (AreRivals(index, i)) blockers.push_back(i);
+    if (AreRivals(index, i)) blockers_.push_back(i);
   }
-  return blockers;
+  return blockers_;
+}
+
+const std::vector<size_t>& ModelSelection::Only(size_t index) {
+  only_.assign(1, index);
+  return only_;
 }
 
 // Gives the place of selected candidates to others, beginning with `first`; takes that back and
@@ -67,18 +71,18 @@ bool ModelSelection::Replace(const std::vector<size_t>& old, std::optional<size_
     candidates_[i].is_out = true;
   }
   double new_gain = 0;
-  std::vector<size_t> instead;
+  instead_.clear();
   for (auto next = first ? first : Best(input); next; next = Best(input)) {
     candidates_[*next].selection_gain = Gain(&candidates_[*next]);
     new_gain += candidates_[*next].selection_gain;
     // Every further object must pay for itself, or the parts of one would replace the whole.
-    if (instead.size() >= old.size()) new_gain -= config_.min_explained_px();
-    instead.push_back(*next);
+    if (instead_.size() >= old.size()) new_gain -= config_.min_explained_px();
+    instead_.push_back(*next);
     Select(*next);
   }
   for (const size_t i : old) candidates_[i].is_out = false;
   if (new_gain > kMinImprovement * share_of_old * old_gain) return true;
-  for (const size_t i : instead) Release(i);
+  for (const size_t i : instead_) Release(i);
   for (const size_t i : old) Select(i);
   return false;
 }
@@ -97,7 +101,7 @@ bool ModelSelection::Split(size_t old, const Input& input) {
   }
   std::vector<Eigen::Vector3d>& points_O = input.buffers->explained_O;
   FindExplainedPoints(solid, evidence, input.observation, &points_O);
-  const auto parts = SplitBox(solid, points_O);
+  const auto parts = box_splitter_.Split(solid, points_O);
   return parts && ReplaceByParts({(*parts)[0], (*parts)[1]}, old, 1, input);
 }
 
@@ -110,11 +114,11 @@ bool ModelSelection::Reshape(size_t old, const Input& input) {
   const Candidate& candidate = candidates_[old];
   const Solid& solid = candidate.hypothesis.solid;
   if (!IsUpright(solid, observation.support)) return false;
-  std::vector<uint8_t> is_own(num_explaining_.size(), 0);
+  is_own_.assign(num_explaining_.size(), 0);
   int num_own_px = 0;
   for (const int32_t pixel : candidate.evidence.explained) {
     if (num_explaining_[static_cast<size_t>(pixel)] > 1) continue;
-    is_own[static_cast<size_t>(pixel)] = 1;
+    is_own_[static_cast<size_t>(pixel)] = 1;
     num_own_px += candidate.evidence.pixel_weight;
   }
   Release(old);
@@ -124,12 +128,12 @@ bool ModelSelection::Reshape(size_t old, const Input& input) {
   std::optional<size_t> best;
   if (num_own_px < kMaxPx &&
       gain < kMaxShare * (1 - noise_in_tolerances * noise_in_tolerances) * num_own_px) {
-    best = BestOver(is_own, candidate, input);
+    best = BestOver(is_own_, candidate, input);
   }
   const bool is_better = best && candidates_[*best].num_blockers == 0 &&
                          Gain(&candidates_[*best]) > kMinImprovement * gain;
   Select(old);
-  return is_better && Replace({old}, best, input);
+  return is_better && Replace(Only(old), best, input);
 }
 
 // The candidate of the other shape that explains the most of some pixels that one explains.
@@ -141,11 +145,11 @@ std::optional<size_t> ModelSelection::BestOver(const std::vector<uint8_t>& is_ma
   const Eigen::Isometry3d X_TC = TableFrame(input.observation.support);
   const Eigen::Isometry3d X_CT = X_TC.inverse();
   std::optional<size_t> best;
-  for (const SurfacePart& part : FindParts(
+  for (const SurfacePart& part : part_finder_.Find(
            is_marked, candidate.evidence.window, X_TC,
            static_cast<size_t>(config_.min_explained_px() / pixel_weight), input.observation)) {
     const double min_px = kMinShare * pixel_weight * static_cast<double>(part.num_points());
-    for (const Hypothesis& hypothesis : SolidsOver(part, X_CT)) {
+    for (const Hypothesis& hypothesis : part_completion_.SolidsOver(part, X_CT)) {
       if (hypothesis.solid.shape == shape) continue;
       const auto added = AddRefined(hypothesis, min_px, input);
       if (added && (!best || Gain(&candidates_[*added]) > Gain(&candidates_[*best]))) best = added;
@@ -174,7 +178,7 @@ bool ModelSelection::CutLower(size_t old, const Input& input) {
 }
 
 // Proposes parts of a selected candidate in its place, of whose gain only a share counts.
-bool ModelSelection::ReplaceByParts(const std::vector<Solid>& parts, size_t old,
+bool ModelSelection::ReplaceByParts(std::initializer_list<Solid> parts, size_t old,
                                     double share_of_old, const Input& input) {
   Hypothesis hypothesis = candidates_[old].hypothesis;
   std::optional<size_t> first;
@@ -185,7 +189,7 @@ bool ModelSelection::ReplaceByParts(const std::vector<Solid>& parts, size_t old,
     if (added && (!first || Gain(&candidates_[*added]) > Gain(&candidates_[*first]))) first = added;
   }
   return first && candidates_[*first].num_blockers <= 1 &&
-         Replace({old}, first, input, share_of_old);
+         Replace(Only(old), first, input, share_of_old);
 }
 
 }  // namespace declutter

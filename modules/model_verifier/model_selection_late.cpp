@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "modules/model_verifier/late_proposals.h"
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/support_settling.h"
 
@@ -50,20 +49,22 @@ void ModelSelection::ProposeForUnexplained(const Input& input) {
   constexpr double kMinShareBefore = 0.5;  // the same before it is refined
   constexpr double kMinFit = 0.8;          // of a pixel: noise leaves 8 / 9
   constexpr double kMinUnshared = 0.8;     // of what speaks for it, from pixels of its own
-  std::vector<Solid> selected;
-  std::vector<uint8_t> is_explained = num_explaining_;
+  selected_solids_.clear();
+  is_explained_ = num_explaining_;
   for (const size_t i : selected_) {
     const Hypothesis& hypothesis = candidates_[i].hypothesis;
-    selected.push_back(hypothesis.solid);
+    selected_solids_.push_back(hypothesis.solid);
     if (hypothesis.evidence[2] != Evidence::kAssumed) continue;
     // What is below may be its own lower part.
     const Solid longer = ExtendedToSupport(hypothesis.solid, input.observation.support);
-    for (const int32_t pixel : CastRays(longer, input.observation).explained) {
-      is_explained[static_cast<size_t>(pixel)] = 1;
+    RayEvidence& evidence = input.buffers->evidence;
+    CastRays(longer, input.observation, &evidence);
+    for (const int32_t pixel : evidence.explained) {
+      is_explained_[static_cast<size_t>(pixel)] = 1;
     }
   }
-  for (const LateProposal& proposal : declutter::ProposeForUnexplained(
-           selected, is_explained, config_.min_explained_px(), input.observation)) {
+  for (const LateProposal& proposal : late_proposer_.ProposeForUnexplained(
+           selected_solids_, is_explained_, config_.min_explained_px(), input.observation)) {
     const auto added = AddRefined(proposal.hypothesis, kMinShareBefore * proposal.num_px, input);
     if (!added) continue;
     Candidate& candidate = candidates_[*added];

@@ -1,6 +1,7 @@
 #include "modules/model_verifier/model_verifier.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "modules/geometry/sensor_noise.h"
@@ -79,19 +80,19 @@ void RemoveLabelled(const std::vector<uint8_t>& labels, PixelGrid* grid) {
 
 // Renumbers what is left after objects below the least confidence are gone.
 void DropUncertain(double min_confidence, ObjectList* list) {
-  std::vector<uint8_t> new_id(list->objects.size() + 1, 0);
-  std::vector<ObjectModel> kept;
+  std::array<uint8_t, 256> new_id = {};
+  size_t num_kept = 0;
   for (const ObjectModel& object : list->objects) {
     if (object.confidence < min_confidence) continue;
-    new_id[static_cast<size_t>(object.id)] = static_cast<uint8_t>(kept.size() + 1);
-    kept.push_back(object);
+    new_id[static_cast<size_t>(object.id)] = static_cast<uint8_t>(num_kept + 1);
+    list->objects[num_kept++] = object;
   }
-  for (ObjectModel& object : kept) {
+  list->objects.resize(num_kept);
+  for (ObjectModel& object : list->objects) {
     object.id = new_id[static_cast<size_t>(object.id)];
     object.supported_by = new_id[static_cast<size_t>(object.supported_by)];
   }
   for (uint8_t& label : list->labels) label = new_id[label];
-  list->objects = std::move(kept);
 }
 
 }  // namespace
@@ -121,10 +122,11 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
 void ModelVerifier::Select(const std::vector<Hypothesis>& hypotheses,
                            const Observation& observation, std::vector<ObjectModel>* objects) {
   selection_.Run(hypotheses, observation, &buffers_);
-  std::vector<Candidate*> selected;
-  for (const size_t i : selection_.selected()) selected.push_back(&selection_.candidate(i));
-  if (config_.refine()) fits_.Run(observed_, selected, &buffers_);
-  for (const Candidate* candidate : selected) {
+  selected_.clear();
+  for (const size_t i : selection_.selected()) selected_.push_back(&selection_.candidate(i));
+  if (config_.refine()) fits_.Run(observed_, selected_, &buffers_);
+  objects->reserve(selected_.size());
+  for (const Candidate* candidate : selected_) {
     ObjectModel& object = objects->emplace_back();
     object.solid = candidate->hypothesis.solid;
     object.evidence = candidate->hypothesis.evidence;
@@ -144,9 +146,9 @@ void ModelVerifier::Measure(ObjectList* list) {
     object.num_violating = evidence_[i].num_violating;
     object.id = static_cast<int32_t>(i + 1);
   }
-  std::vector<const RayEvidence*> of_objects;
-  for (size_t i = 0; i < num; ++i) of_objects.push_back(&evidence_[i]);
-  owners_.Assign(of_objects, observation.grid.num_pixels());
+  of_objects_.clear();
+  for (size_t i = 0; i < num; ++i) of_objects_.push_back(&evidence_[i]);
+  owners_.Assign(of_objects_, observation.grid.num_pixels());
   list->labels = owners_.owners();
   LabelHollow(evidence_, list);
   CountExplaining(evidence_, num, list->labels.size(), &num_explaining_);

@@ -35,6 +35,8 @@ class ModelVerifier {
   ObservedImage observed_;
   FitBuffers buffers_;
   std::vector<RayEvidence> evidence_;
+  std::vector<Candidate*> selected_;
+  std::vector<const RayEvidence*> of_objects_;
   PixelOwners owners_;
   std::vector<uint8_t> num_explaining_;  // objects, per pixel
   PixelGrid unlabelled_;

@@ -35,15 +35,18 @@ Range Quantiles(std::vector<float>* values, float low, float high) {
   return {a, at(high)};
 }
 
-std::vector<float> HeightsOf(const std::vector<Eigen::Vector3f>& points) {
-  std::vector<float> heights;
-  for (const Eigen::Vector3f& p : points) heights.push_back(p.z());
-  return heights;
+void SetToHeights(const std::vector<Eigen::Vector3f>& points, std::vector<float>* heights) {
+  heights->clear();
+  for (const Eigen::Vector3f& p : points) heights->push_back(p.z());
 }
 
-// From the support, or the lowest point seen, to the top.
-Range HeightsOf(const SurfacePart& part) {
-  std::vector<float> tops = HeightsOf(part.tops), sides = HeightsOf(part.sides);
+// From the support, or the lowest point seen, to the top. The last two are buffers.
+Range HeightsOf(const SurfacePart& part, std::vector<float>* top_heights,
+                std::vector<float>* side_heights) {
+  std::vector<float>& tops = *top_heights;
+  std::vector<float>& sides = *side_heights;
+  SetToHeights(part.tops, &tops);
+  SetToHeights(part.sides, &sides);
   Range range;
   if (tops.size() >= kMinTops) {
     range.high = Quantiles(&tops, 0.5f, 0.5f).low;
@@ -75,19 +78,20 @@ Hypothesis Standing(Shape shape, const Range& heights, const Eigen::Vector2f& ce
   return hypothesis;
 }
 
+// along is a buffer.
 std::optional<Hypothesis> BoxOver(const SurfacePart& part, const Range& heights,
-                                  const Eigen::Isometry3d& X_CT) {
+                                  const Eigen::Isometry3d& X_CT, std::vector<float>* along) {
   const auto direction = EdgeDirection(part.outline);
   if (!direction) return std::nullopt;
   const std::array<Eigen::Vector2f, 2> axes = {*direction, {-direction->y(), direction->x()}};
   std::array<Range, 2> ends;
   std::array<bool, 2> is_assumed = {};
   for (size_t i = 0; i < 2; ++i) {
-    std::vector<float> along;
+    along->clear();
     for (const auto* points : {&part.tops, &part.sides}) {
-      for (const Eigen::Vector3f& p : *points) along.push_back(axes[i].dot(p.head<2>()));
+      for (const Eigen::Vector3f& p : *points) along->push_back(axes[i].dot(p.head<2>()));
     }
-    ends[i] = Quantiles(&along, 0.01f, 0.99f);
+    ends[i] = Quantiles(along, 0.01f, 0.99f);
   }
   for (size_t i = 0; i < 2; ++i) {
     if (ends[i].high - ends[i].low > kMinExtent) continue;
@@ -150,13 +154,14 @@ std::optional<Hypothesis> CylinderOver(const SurfacePart& part, const Range& hei
 
 }  // namespace
 
-std::vector<Hypothesis> SolidsOver(const SurfacePart& part, const Eigen::Isometry3d& X_CT) {
-  const Range heights = HeightsOf(part);
-  std::vector<Hypothesis> solids;
-  if (heights.high - heights.low <= 0) return solids;
-  if (const auto box = BoxOver(part, heights, X_CT)) solids.push_back(*box);
-  if (const auto cylinder = CylinderOver(part, heights, X_CT)) solids.push_back(*cylinder);
-  return solids;
+const std::vector<Hypothesis>& PartCompletion::SolidsOver(const SurfacePart& part,
+                                                          const Eigen::Isometry3d& X_CT) {
+  solids_.clear();
+  const Range heights = HeightsOf(part, &values_, &side_heights_);
+  if (heights.high - heights.low <= 0) return solids_;
+  if (const auto box = BoxOver(part, heights, X_CT, &values_)) solids_.push_back(*box);
+  if (const auto cylinder = CylinderOver(part, heights, X_CT)) solids_.push_back(*cylinder);
+  return solids_;
 }
 
 }  // namespace declutter

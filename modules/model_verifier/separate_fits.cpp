@@ -26,16 +26,16 @@ void SeparateFits::Run(const ObservedImage& observed, const std::vector<Candidat
   const Observation half = observed.every_second_pixel();
   const Observation all = observed.every_pixel();
   const Observation apart{all.image, grid_, all.normals, all.support};
-  std::vector<const RayEvidence*> evidence;
-  for (const Candidate* candidate : candidates) evidence.push_back(&candidate->evidence);
-  std::vector<char> is_moving(candidates.size(), 1);
+  evidence_.clear();
+  for (const Candidate* candidate : candidates) evidence_.push_back(&candidate->evidence);
+  is_moving_.assign(candidates.size(), 1);
   grid_ = all.grid;
   for (int fit = 0; fit < kMaxFits; ++fit) {
     if (fit > 0) Mark();  // nothing is marked
-    owners_.Assign(evidence, half.grid.num_pixels());
+    owners_.Assign(evidence_, half.grid.num_pixels());
     Mark();
     for (size_t i = 0; i < candidates.size(); ++i) {
-      if (!is_moving[i]) continue;
+      if (!is_moving_[i]) continue;
       Candidate& candidate = *candidates[i];
       Solid* const solid = &candidate.hypothesis.solid;
       const PixelWindow window = candidate.evidence.window;
@@ -44,7 +44,7 @@ void SeparateFits::Run(const ObservedImage& observed, const std::vector<Candidat
       const bool is_fitted =
           fit == 0 ? RefineOrClimb(apart, half, solid, &candidate.evidence, buffers)
                    : RefineIfNoWorse(apart, half, solid, &candidate.evidence, buffers);
-      is_moving[i] = is_fitted && Change(before, *solid) > kRest;
+      is_moving_[i] = is_fitted && Change(before, *solid) > kRest;
       for (const ptrdiff_t pixel : claimed_) grid_.z[static_cast<size_t>(pixel)] *= -1;
     }
   }

@@ -22,7 +22,9 @@ class SeparateFits {
 
   PixelOwners owners_;  // of every second pixel
   PixelGrid grid_;      // of every pixel; depths are negative between pixels that all have an owner
-  std::vector<ptrdiff_t> claimed_;  // pixels of grid_, by the solid that is fitted
+  std::vector<const RayEvidence*> evidence_;  // of each candidate
+  std::vector<char> is_moving_;               // the same
+  std::vector<ptrdiff_t> claimed_;            // pixels of grid_, by the solid that is fitted
 };
 
 }  // namespace declutter

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "modules/geometry/reused_list.h"
 #include "modules/model_verifier/observation.h"
 #include "modules/model_verifier/projection.h"
 
@@ -20,10 +22,91 @@ struct SurfacePart {
   size_t num_points() const { return tops.size() + sides.size(); }
 };
 
-// Parts of at least min_points points among the marked pixels of a window of the grid, in row-major
-// order of their first pixels. is_marked has one element per pixel of the grid.
-std::vector<SurfacePart> FindParts(const std::vector<uint8_t>& is_marked, const PixelWindow& window,
-                                   const Eigen::Isometry3d& X_TC, size_t min_points,
-                                   const Observation& observation);
+using SurfaceParts = ReusedList<SurfacePart>;
+
+// What a normal at a point tells of the face it is on, or the most telling one of a part. Around
+// edges it is blurred, or there is none.
+enum class FaceKind : int8_t { kVague, kSide, kTop };
+
+// Parts of which some turn out to be the same.
+class PartLabels {
+ public:
+  void Clear() {
+    parent_.clear();
+    kind_.clear();
+  }
+  int32_t New(FaceKind kind) {
+    parent_.push_back(static_cast<int32_t>(parent_.size()));
+    kind_.push_back(kind);
+    return parent_.back();
+  }
+  int32_t Root(int32_t label) {
+    int32_t& parent = parent_[static_cast<size_t>(label)];
+    if (parent != label) parent = Root(parent);
+    return parent;
+  }
+  FaceKind KindOf(int32_t label) { return kind_[static_cast<size_t>(Root(label))]; }
+  void Raise(int32_t label, FaceKind kind) {
+    FaceKind& known = kind_[static_cast<size_t>(Root(label))];
+    known = std::max(known, kind);
+  }
+  void Join(int32_t a, int32_t b) {
+    const int32_t x = Root(a), y = Root(b);
+    const FaceKind kind = std::max(KindOf(a), KindOf(b));
+    parent_[static_cast<size_t>(std::max(x, y))] = std::min(x, y);
+    Raise(a, kind);
+  }
+  size_t size() const { return parent_.size(); }
+
+ private:
+  std::vector<int32_t> parent_;
+  std::vector<FaceKind> kind_;
+};
+
+// Finds parts again and again, with memory that is used again.
+class PartFinder {
+ public:
+  // Parts of at least min_points points among the marked pixels of a window of the grid, in
+  // row-major order of their first pixels. is_marked has one element per pixel of the grid. The
+  // result is valid until the next call.
+  const SurfaceParts& Find(const std::vector<uint8_t>& is_marked, const PixelWindow& window,
+                           const Eigen::Isometry3d& X_TC, size_t min_points,
+                           const Observation& observation);
+
+ private:
+  struct Pixel {
+    Eigen::Vector3f p_T = Eigen::Vector3f::Zero();
+    float depth = 0;  // [m], 0: not measured
+    FaceKind kind = FaceKind::kVague;
+    int32_t label = -1;  // -1: not marked
+
+    bool is_top() const { return kind == FaceKind::kTop; }
+  };
+  // What one search works on.
+  struct Input {
+    const std::vector<uint8_t>& is_marked;
+    const Observation& observation;
+    PixelWindow window;
+    Eigen::Isometry3f X_TC;
+  };
+
+  size_t Index(int u, int v) const { return static_cast<size_t>(v * columns_ + u); }
+  Eigen::Vector3f PointAt(int u, int v, const Input& input) const;
+  void Measure(int u, int v, const Input& input);
+  void Join(int u, int v);
+  int32_t LabelIfJoined(const Pixel& pixel, const Pixel& other, bool is_above);
+  bool AreOnePart(const Pixel& pixel, int32_t a, int32_t b);
+  void GrowTopsOverRims();
+  bool IsFreeEdge(int u, int v, const Input& input) const;
+  bool IsFree(int u, int v, int du, int dv, const Input& input) const;
+  void GatherParts(const Input& input);
+  void DropSmall(size_t min_points);
+
+  int columns_ = 0, rows_ = 0;  // of the window
+  std::vector<Pixel> pixels_;
+  PartLabels labels_;
+  std::vector<Eigen::Vector2f> sums_;  // of heights and of 1, per label
+  SurfaceParts parts_;
+};
 
 }  // namespace declutter

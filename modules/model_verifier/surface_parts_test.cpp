@@ -29,11 +29,13 @@ std::vector<SurfacePart> PartsOf(const std::string& objects) {
       }
     }
   }
-  return FindParts(is_marked, {0, grid.columns, 0, grid.rows}, TableFrame(scene.table), 40,
-                   observation);
+  PartFinder finder;
+  const SurfaceParts& parts = finder.Find(is_marked, {0, grid.columns, 0, grid.rows},
+                                          TableFrame(scene.table), 40, observation);
+  return {parts.begin(), parts.end()};
 }
 
-TEST(FindParts, KeepsTheTopAndTheSidesOfABoxTogether) {
+TEST(PartFinder, KeepsTheTopAndTheSidesOfABoxTogether) {
   const auto parts =
       PartsOf("object { box { size_x_m: 0.1 size_y_m: 0.08 size_z_m: 0.1 } y_m: 0.65 }");
   ASSERT_THAT(parts, SizeIs(1));
@@ -41,14 +43,14 @@ TEST(FindParts, KeepsTheTopAndTheSidesOfABoxTogether) {
   EXPECT_GT(parts[0].sides.size(), 200u);
 }
 
-TEST(FindParts, PartsNeighboursOfDifferentHeights) {
+TEST(PartFinder, PartsNeighboursOfDifferentHeights) {
   const auto parts = PartsOf(
       "object { box { size_x_m: 0.08 size_y_m: 0.08 size_z_m: 0.1 } y_m: 0.65 }"
       "object { box { size_x_m: 0.08 size_y_m: 0.08 size_z_m: 0.07 } x_m: 0.081 y_m: 0.65 }");
   ASSERT_THAT(parts, SizeIs(2));
 }
 
-TEST(FindParts, OutlinesATopOnlyWhereNothingHidesTheRest) {
+TEST(PartFinder, OutlinesATopOnlyWhereNothingHidesTheRest) {
   // Of the lower box, the taller one in front hides the front edge.
   const auto parts = PartsOf(
       "object { box { size_x_m: 0.3 size_y_m: 0.04 size_z_m: 0.12 } y_m: 0.55 }"
