@@ -8,7 +8,6 @@
 #include "modules/model_verifier/confidence.h"
 #include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/refinement.h"
-#include "modules/model_verifier/support_settling.h"
 #include "modules/model_verifier/systematic_misfit.h"
 #include "modules/model_verifier/uncertainty.h"
 
@@ -113,7 +112,7 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   observed_.Set(frame.image, list.planes[0]);
   // Models are selected by every second pixel; what is selected is measured with all.
   Select(hypotheses.hypotheses, observed_.every_second_pixel(), &list.objects);
-  SettleOnSupports(observed_.every_second_pixel(), &list.objects, &buffers_.evidence);
+  settler_.Settle(observed_.every_second_pixel(), &list.objects);
   Measure(&list);
   DropUncertain(config_.min_confidence(), &list);
   return list;

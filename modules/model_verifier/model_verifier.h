@@ -9,6 +9,7 @@
 #include "modules/model_verifier/observation.h"
 #include "modules/model_verifier/pixel_owners.h"
 #include "modules/model_verifier/separate_fits.h"
+#include "modules/model_verifier/support_settling.h"
 
 namespace declutter {
 
@@ -31,6 +32,7 @@ class ModelVerifier {
   ModelVerifierConfig config_;
   ModelSelection selection_;
   SeparateFits fits_;
+  SupportSettler settler_;
   // Room that the next frame uses again.
   ObservedImage observed_;
   FitBuffers buffers_;

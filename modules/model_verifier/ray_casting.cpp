@@ -54,9 +54,11 @@ void CastRays(const Solid& solid, const Observation& observation, RayEvidence* r
   const auto room = static_cast<size_t>(window.u_end - window.u_begin) *
                         static_cast<size_t>(window.v_end - window.v_begin) +
                     kRayPadding;
-  evidence.explained.resize(room);
-  evidence.fits.resize(room);
-  evidence.hollow.resize(solid.shape == Shape::kCylinder ? room : 0);
+  for (auto* list : {&evidence.explained, &evidence.fits, &evidence.hollow}) {
+    // Once and for all: evidence changes places between solids of any size.
+    if (list->capacity() < room) list->reserve(2 * room);
+    list->resize(room);
+  }
   RayCounts counts;
   counts.explained = evidence.explained.data();
   counts.fits = evidence.fits.data();

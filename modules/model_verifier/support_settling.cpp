@@ -51,32 +51,6 @@ Solid Extended(Solid solid, double bottom, double new_bottom) {
   return solid;
 }
 
-// What an object could stand on.
-struct Floor {
-  double height = 0;         // [m] above the support plane
-  int32_t supported_by = 0;  // id of the object below, 0: the support plane
-};
-
-// Makes floors those below a solid, lowest first. An object under much of its footprint hides all
-// lower ones.
-void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper, double bottom,
-                     const Plane& support, std::vector<Floor>* floors) {
-  floors->assign(1, Floor());
-  for (size_t j = 0; j < upper; ++j) {
-    const double top = TopOf(objects[j].solid, support);
-    const double share = FootprintOver(objects[upper].solid, objects[j].solid);
-    if (top > bottom + kSupportTolerance || share < kMinFootprint) continue;
-    if (share > kFullFootprint) {
-      floors->erase(std::remove_if(floors->begin(), floors->end(),
-                                   [top](const Floor& floor) { return floor.height < top; }),
-                    floors->end());
-    }
-    const auto above = std::find_if(floors->begin(), floors->end(),
-                                    [top](const Floor& floor) { return floor.height > top; });
-    floors->insert(above, {top, static_cast<int32_t>(j + 1)});
-  }
-}
-
 }  // namespace
 
 bool IsUpright(const Solid& solid, const Plane& support) {
@@ -91,30 +65,46 @@ Solid ExtendedToSupport(const Solid& solid, const Plane& support) {
   return Extended(solid, Bottom(solid, support), 0);
 }
 
-void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects,
-                      RayEvidence* buffer) {
+void SupportSettler::FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper,
+                                     double bottom, const Plane& support) {
+  floors_.assign(1, Floor());
+  for (size_t j = 0; j < upper; ++j) {
+    const double top = TopOf(objects[j].solid, support);
+    const double share = FootprintOver(objects[upper].solid, objects[j].solid);
+    if (top > bottom + kSupportTolerance || share < kMinFootprint) continue;
+    if (share > kFullFootprint) {
+      floors_.erase(std::remove_if(floors_.begin(), floors_.end(),
+                                   [top](const Floor& floor) { return floor.height < top; }),
+                    floors_.end());
+    }
+    const auto above = std::find_if(floors_.begin(), floors_.end(),
+                                    [top](const Floor& floor) { return floor.height > top; });
+    floors_.insert(above, {top, static_cast<int32_t>(j + 1)});
+  }
+}
+
+void SupportSettler::Settle(const Observation& observation, std::vector<ObjectModel>* objects) {
   const Plane& support = observation.support;
   std::sort(objects->begin(), objects->end(), [&](const ObjectModel& a, const ObjectModel& b) {
     return TopOf(a.solid, support) < TopOf(b.solid, support);
   });
   const auto num_violating = [&](const Solid& solid) {
-    CastRays(solid, observation, buffer);
-    return buffer->num_violating;
+    CastRays(solid, observation, &seen_);
+    return seen_.num_violating;
   };
-  std::vector<Floor> floors;
   for (size_t i = 0; i < objects->size(); ++i) {
     ObjectModel& upper = (*objects)[i];
     const double bottom = Bottom(upper.solid, support);
-    FindFloorsBelow(*objects, i, bottom, support, &floors);
+    FindFloorsBelow(*objects, i, bottom, support);
     if (upper.evidence[2] != Evidence::kAssumed) {
-      upper.supported_by = floors.back().supported_by;
+      upper.supported_by = floors_.back().supported_by;
       continue;
     }
-    CastRays(upper.solid, observation, buffer);
-    const double max_violating = buffer->num_violating + kMaxNewViolating * buffer->num_explained();
-    for (const Floor& floor : floors) {
+    CastRays(upper.solid, observation, &seen_);
+    const double max_violating = seen_.num_violating + kMaxNewViolating * seen_.num_explained();
+    for (const Floor& floor : floors_) {
       const Solid extended = Extended(upper.solid, bottom, floor.height);
-      if (&floor != &floors.back() && num_violating(extended) > max_violating) continue;
+      if (&floor != &floors_.back() && num_violating(extended) > max_violating) continue;
       upper.solid = extended;
       upper.supported_by = floor.supported_by;
       break;

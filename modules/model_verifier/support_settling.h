@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "modules/geometry/solid.h"
@@ -7,11 +9,28 @@
 
 namespace declutter {
 
-// Extends solids whose lower end nobody saw (evidence[2] is kAssumed) down to what they stand on,
-// and sets what each stands on: the object below, or the support plane. Sorts the objects by the
-// height of their tops; supported_by counts from 1 in that order.
-void SettleOnSupports(const Observation& observation, std::vector<ObjectModel>* objects,
-                      RayEvidence* buffer);
+// Settles objects frame by frame, with memory that is used again.
+class SupportSettler {
+ public:
+  // Extends solids whose lower end nobody saw (evidence[2] is kAssumed) down to what they stand on,
+  // and sets what each stands on: the object below, or the support plane. Sorts the objects by the
+  // height of their tops; supported_by counts from 1 in that order.
+  void Settle(const Observation& observation, std::vector<ObjectModel>* objects);
+
+ private:
+  // What an object could stand on.
+  struct Floor {
+    double height = 0;         // [m] above the support plane
+    int32_t supported_by = 0;  // id of the object below, 0: the support plane
+  };
+
+  // Makes floors_ those below a solid. An object under much of its footprint hides all lower ones.
+  void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper, double bottom,
+                       const Plane& support);
+
+  std::vector<Floor> floors_;  // lowest first
+  RayEvidence seen_;
+};
 
 // True for a solid whose z axis is the support normal.
 bool IsUpright(const Solid& solid, const Plane& support);

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/feature_estimator/feature_estimator.h"
 #include "modules/hough_segmenter/hough_segmenter.h"
+#include "modules/model_verifier/model_verifier.h"
+#include "modules/plane_filter/plane_filter.h"
 #include "tests/benchmark/bench_frame.h"
 
 namespace declutter::benchmark {
@@ -24,6 +27,36 @@ TEST(Allocations, OfTheSegmenterAreTheListsOfItsResult) {
     for (int k = 0; k < 10; ++k) count();
     EXPECT_EQ(count(), 2);  // support planes and hypotheses
   }
+}
+
+TEST(Allocations, OfThePlaneFilterAndTheFeatureEstimatorAreNone) {
+  const BenchFrame frame = RenderedFrames(1)[0];
+  PlaneFilter filter{PlaneFilterConfig()};
+  FeatureEstimator estimator{FeatureEstimatorConfig()};
+  const auto count = [&] {
+    const int64_t num_before = NumAllocations();
+    const Tabletop& tabletop = filter.Filter(frame.depth);
+    EXPECT_FALSE(estimator.Estimate(tabletop).points.empty());
+    return NumAllocations() - num_before;
+  };
+  EXPECT_GT(count(), 100);
+  count();
+  EXPECT_EQ(count(), 0);
+}
+
+TEST(Allocations, OfTheVerifierAreTheListsOfItsResult) {
+  const BenchFrame frame = RenderedFrames(1)[0];
+  ModelVerifier verifier{ModelVerifierConfig()};
+  const auto count = [&] {
+    const int64_t num_before = NumAllocations();
+    const ObjectList list = verifier.Verify(frame.depth, frame.hypotheses);
+    EXPECT_FALSE(list.objects.empty());
+    return NumAllocations() - num_before;
+  };
+  EXPECT_GT(count(), 100);
+  // Evidence changes places between solids until all have enough.
+  for (int k = 0; k < 40; ++k) count();
+  EXPECT_EQ(count(), 3);  // support planes, objects and labels
 }
 
 }  // namespace
