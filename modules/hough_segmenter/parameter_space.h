@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "modules/hough_segmenter/model_fits.h"
 #include "modules/geometry/reused_list.h"
+#include "modules/hough_segmenter/model_fits.h"
 
 namespace declutter {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "modules/geometry/image_components.h"
+#include "modules/geometry/reused_list.h"
 #include "modules/geometry/tabletop.h"
 #include "modules/hough_segmenter/height_bands.h"
 #include "modules/hough_segmenter/planar_points.h"
-#include "modules/geometry/reused_list.h"
 #include "modules/hough_segmenter/table_points.h"
 
 namespace declutter {
