@@ -38,6 +38,7 @@ void ModelSelection::Run(const std::vector<Hypothesis>& hypotheses, const Observ
   SelectBest(input);
   ProposeAboveBlockers(input);
   ProposeForUnexplained(input);
+  ProposeUpperParts(input);
   for (int round = 0; round < kMaxRounds && Exchange(input); ++round) {
   }
 }

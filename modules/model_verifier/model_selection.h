@@ -64,6 +64,8 @@ class ModelSelection {
   void SelectBest(const Input& input);
   // model_selection_late.cpp
   void ProposeAboveBlockers(const Input& input);
+  void ProposeUpperParts(const Input& input);
+  void AddUpperPart(size_t index, double floor, const Input& input);
   void ProposeForUnexplained(const Input& input);
   // model_selection_exchange.cpp
   bool Exchange(const Input& input);

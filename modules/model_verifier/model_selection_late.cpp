@@ -1,14 +1,30 @@
 #include <algorithm>
+#include <cmath>
 
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/support_settling.h"
 
 namespace declutter {
+namespace {
+
+constexpr double kMinHeight = 0.015;  // [m] that can be grasped
+
+// True for upright solids whose outlines, seen from above, differ by no more than blurred edges.
+bool HaveOneCrossSection(const Solid& a, const Solid& b) {
+  constexpr double kMaxDifference = 0.010;  // [m]
+  const auto range = [](const Solid& solid) { return std::minmax(solid.size.x(), solid.size.y()); };
+  const Eigen::Vector3d shift_O =
+      a.X_CO.linear().transpose() * (b.X_CO.translation() - a.X_CO.translation());
+  return a.shape == b.shape && shift_O.head<2>().norm() < kMaxDifference &&
+         std::abs(range(a).first - range(b).first) < kMaxDifference &&
+         std::abs(range(a).second - range(b).second) < kMaxDifference;
+}
+
+}  // namespace
 
 // Tries candidates that reach down into selected ones as what stands on those: a side that goes on
 // below may have been taken for theirs.
 void ModelSelection::ProposeAboveBlockers(const Input& input) {
-  constexpr double kMinHeight = 0.015;  // [m] that can be grasped
   const Plane& support = input.observation.support;
   const size_t num = num_candidates_;
   for (size_t i = 0; i < num; ++i) {
@@ -34,12 +50,54 @@ void ModelSelection::ProposeAboveBlockers(const Input& input) {
         candidate.evidence.Balance() < std::max(config_.min_explained_px(), rivals_gain)) {
       continue;
     }
-    Hypothesis upper = candidate.hypothesis;
-    upper.solid.X_CO = upper.solid.X_CO * Eigen::Translation3d(0, 0, 0.5 * (floor - bottom));
-    upper.solid.size.z() = top - floor;
-    AddRefined(upper, config_.min_explained_px(), input);
+    AddUpperPart(i, floor, input);
   }
   SelectBest(input);
+}
+
+// Adds the parts of selected candidates above others that they keep out: what stands on something
+// may have been taken to reach down through it. Exchanges decide between one and both.
+void ModelSelection::ProposeUpperParts(const Input& input) {
+  const Plane& support = input.observation.support;
+  for (const size_t upper : selected_) {
+    const Solid& solid = candidates_[upper].hypothesis.solid;
+    if (!IsUpright(solid, support)) continue;
+    const double top = TopOf(solid, support);
+    std::optional<size_t> best;
+    for (size_t i = 0; i < num_candidates_; ++i) {
+      Candidate& candidate = candidates_[i];
+      if (candidate.is_out || candidate.is_selected || candidate.num_blockers != 1 ||
+          !AreRivals(i, upper) || !IsUpright(candidate.hypothesis.solid, support)) {
+        continue;
+      }
+      const double floor = TopOf(candidate.hypothesis.solid, support);
+      if (floor > top - kMinHeight || floor < top - solid.height() + kMinHeight ||
+          Gain(&candidate) <= 0) {
+        continue;
+      }
+      if (!best || Gain(&candidate) > Gain(&candidates_[*best])) best = i;
+    }
+    if (!best) continue;
+    const auto lower =
+        AddRefined(Hypothesis(candidates_[*best].hypothesis), config_.min_explained_px(), input);
+    if (!lower) continue;
+    const Solid& below = candidates_[*lower].hypothesis.solid;
+    if (HaveOneCrossSection(below, candidates_[upper].hypothesis.solid)) {
+      --num_candidates_;  // a column is one solid
+    } else {
+      AddUpperPart(upper, TopOf(below, support), input);
+    }
+  }
+}
+
+// The part of an upright candidate above a floor [m] over the support plane, as another candidate.
+void ModelSelection::AddUpperPart(size_t index, double floor, const Input& input) {
+  Hypothesis upper = candidates_[index].hypothesis;
+  const double top = TopOf(upper.solid, input.observation.support);
+  const double change = floor - (top - upper.solid.height());
+  upper.solid.X_CO = upper.solid.X_CO * Eigen::Translation3d(0, 0, 0.5 * change);
+  upper.solid.size.z() = top - floor;
+  AddRefined(upper, config_.min_explained_px(), input);
 }
 
 // Tries solids over what no selected one explains. Nothing voted for them, so that they must

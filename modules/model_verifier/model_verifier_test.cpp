@@ -113,6 +113,20 @@ TEST(ModelVerifier, SetsAStackOnEachOther) {
   EXPECT_NEAR(upper.solid.height(), 0.1, 0.003);
 }
 
+TEST(ModelVerifier, FindsACanUnderOneThatWasTakenToReachDownThroughIt) {
+  const RenderedScene scene = RenderText(
+      "object { cylinder { radius_m: 0.032 height_m: 0.088 } y_m: 0.65 }"
+      "object { cylinder { radius_m: 0.021 height_m: 0.126 } y_m: 0.65 on: 0 }");
+  const Solid deep = Changed(scene.objects[1].solid, {0, 0, -0.044}, {0, 0, 0.088});
+  // The lower one was seen badly, and explains less than the deep one.
+  const Solid lower = Changed(scene.objects[0].solid, {0, 0, 0}, {-0.01, -0.01, 0});
+  const ObjectList list = Verify(scene, {Proposal(deep), Proposal(lower)});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  EXPECT_NEAR(list.objects[0].solid.radius(), 0.032, 0.002);
+  EXPECT_NEAR(list.objects[1].solid.height(), 0.126, 0.003);
+  EXPECT_EQ(list.objects[1].supported_by, list.objects[0].id);
+}
+
 TEST(ModelVerifier, CutsWhatReachesDownIntoWhatItStandsOn) {
   const RenderedScene scene = RenderText(
       "object { box { size_x_m: 0.2 size_y_m: 0.1 size_z_m: 0.06 } y_m: 0.65 }"
