@@ -15,14 +15,6 @@ constexpr int kMaxRounds = 3;        // of exchanges
 constexpr size_t kMaxLate = 128;     // candidates beside the hypotheses, in one frame
 constexpr int8_t kUnknown = -1;
 
-double MisfitShareOf(const Candidate& candidate, const Observation& observation,
-                     std::vector<Eigen::Vector3d>* points_O) {
-  const Solid& solid = candidate.hypothesis.solid;
-  FindExplainedPoints(solid, candidate.evidence, observation, points_O);
-  return MisfitShare(SystematicMisfit(solid, *points_O) /
-                     MeasurementSigma(solid.X_CO.translation().z()));
-}
-
 bool Overlap(const PixelWindow& a, const PixelWindow& b) {
   return a.u_begin < b.u_end && b.u_begin < a.u_end && a.v_begin < b.v_end && b.v_begin < a.v_end;
 }
@@ -88,7 +80,8 @@ std::optional<size_t> ModelSelection::AddRefined(const Hypothesis& hypothesis, d
   }
   if (!IsPlausible(candidate.evidence)) return std::nullopt;
   candidate.is_refined = true;
-  candidate.misfit_share = MisfitShareOf(candidate, input.observation, &input.buffers->explained_O);
+  candidate.misfit_share = MisfitShareOf(candidate.hypothesis.solid, candidate.evidence,
+                                         input.observation, &input.buffers->explained_O);
   ++num_candidates_;
   OnMoved(added);
   return added;
@@ -125,8 +118,8 @@ bool ModelSelection::RefineRivals(const Candidate& best, const Input& input) {
     RefineOrClimb(input.observation, input.observation, &candidate.hypothesis.solid,
                   &candidate.evidence, input.buffers);
     candidate.is_refined = true;
-    candidate.misfit_share =
-        MisfitShareOf(candidate, input.observation, &input.buffers->explained_O);
+    candidate.misfit_share = MisfitShareOf(candidate.hypothesis.solid, candidate.evidence,
+                                           input.observation, &input.buffers->explained_O);
     OnMoved(i);
     has_changed = true;
   }

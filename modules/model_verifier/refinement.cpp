@@ -4,6 +4,7 @@
 
 #include "modules/model_verifier/box_refinement.h"
 #include "modules/model_verifier/cylinder_refinement.h"
+#include "modules/model_verifier/systematic_misfit.h"
 
 namespace declutter {
 
@@ -29,10 +30,20 @@ bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Soli
 bool RefineOrClimb(const Observation& fitted, const Observation& judging, Solid* solid,
                    RayEvidence* evidence, FitBuffers* buffers) {
   const bool is_fitted = RefineIfNoWorse(fitted, judging, solid, evidence, buffers);
-  if (!is_fitted && solid->shape == Shape::kCylinder) {
-    ClimbCylinder(judging, solid, evidence, &buffers->evidence);
+  if (is_fitted || solid->shape != Shape::kCylinder) return is_fitted;
+  const Solid before = *solid;
+  ClimbCylinder(judging, solid, evidence, &buffers->evidence);
+  const double misfit = MisfitShareOf(*solid, *evidence, judging, &buffers->explained_O);
+  if (misfit == 0) return false;
+  // It may have climbed onto its neighbours' points.
+  CastRays(before, judging, &buffers->evidence);
+  const double misfit_before =
+      MisfitShareOf(before, buffers->evidence, judging, &buffers->explained_O);
+  if ((1 - misfit) * evidence->Balance() < (1 - misfit_before) * buffers->evidence.Balance()) {
+    *solid = before;
+    std::swap(*evidence, buffers->evidence);
   }
-  return is_fitted;
+  return false;
 }
 
 }  // namespace declutter

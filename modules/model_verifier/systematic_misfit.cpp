@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "modules/geometry/sensor_noise.h"
+
 namespace declutter {
 namespace {
 
@@ -153,6 +155,13 @@ double MisfitShare(double misfit_sigmas) {
   constexpr double kWeight = 0.4;
   constexpr double kMaxShare = 0.3;
   return std::clamp(kWeight * (misfit_sigmas * misfit_sigmas - kNoise), 0.0, kMaxShare);
+}
+
+double MisfitShareOf(const Solid& solid, const RayEvidence& evidence,
+                     const Observation& observation, std::vector<Eigen::Vector3d>* points_O) {
+  FindExplainedPoints(solid, evidence, observation, points_O);
+  return MisfitShare(SystematicMisfit(solid, *points_O) /
+                     MeasurementSigma(solid.X_CO.translation().z()));
 }
 
 Taper TaperOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O, double sigma) {

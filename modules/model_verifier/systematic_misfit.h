@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modules/geometry/solid.h"
+#include "modules/model_verifier/ray_casting.h"
 
 namespace declutter {
 
@@ -23,6 +24,10 @@ std::optional<double> StepOf(const Solid& cylinder, const std::vector<Eigen::Vec
 
 // Share of what speaks for a solid that a misfit of so many sigma of the sensor's noise takes.
 double MisfitShare(double misfit_sigmas);
+
+// The same of the systematic misfit of what a solid explains. points_O is a buffer.
+double MisfitShareOf(const Solid& solid, const RayEvidence& evidence,
+                     const Observation& observation, std::vector<Eigen::Vector3d>* points_O);
 
 // Growth of the radius of a cylinder's side with height.
 struct Taper {
