@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "modules/feature_estimator/lanes.h"
-#include "modules/geometry/marked_pixels.h"
+#include "modules/geometry/pixel_runs.h"
 
 namespace declutter {
 namespace {
@@ -35,8 +35,6 @@ DECLUTTER_LANES bool AreConnected(const PointImage& points, const Reach& reach, 
          (std::max(points.z[a], points.z[b]) < PointImage::kFar);
 }
 
-constexpr uint8_t kBegins = 1, kEnds = 2;
-
 // Marks in joined[1 .. num - 1] the elements from begin on that have a point connected with that of
 // the element before, and in edges those that a run begins or ends with.
 DECLUTTER_FOR_EACH_PROCESSOR void MarkEdges(const PointImage& points, const Reach& reach,
@@ -47,8 +45,7 @@ DECLUTTER_FOR_EACH_PROCESSOR void MarkEdges(const PointImage& points, const Reac
   }
   const float* z = &points.z[begin];
   for (size_t i = 0; i < num; ++i) {
-    const int begins = joined[i] > 0 ? 0 : kBegins, ends = joined[i + 1] > 0 ? 0 : kEnds;
-    edges[i] = static_cast<uint8_t>(z[i] < PointImage::kFar ? begins + ends : 0);
+    edges[i] = RunEdges(z[i] < PointImage::kFar, joined[i], joined[i + 1]);
   }
 }
 
@@ -63,10 +60,7 @@ void FindRuns(const PointImage& points, const Reach& reach, Components* image) {
     image->first_run.push_back(image->runs.size());
     const size_t begin = points.Index(0, j);
     MarkEdges(points, reach, begin, width, image->joined.data(), image->edges.data());
-    ForEachMarked(image->edges.data(), 0, width, [&](size_t i) {
-      if ((image->edges[i] & kBegins) != 0) image->runs.push_back({begin + i, begin + i});
-      if ((image->edges[i] & kEnds) != 0) image->runs.back().end = begin + i + 1;
-    });
+    AppendRuns(image->edges, begin, &image->runs);
   }
   image->first_run.push_back(image->runs.size());
   for (PointRun& run : image->runs) {
@@ -78,31 +72,6 @@ void FindRuns(const PointImage& points, const Reach& reach, Components* image) {
   }
 }
 
-// Disjoint sets of runs, each named by its first one, in given memory.
-class DisjointSets {
- public:
-  DisjointSets(size_t num, std::vector<int32_t>* parent) : parent_(*parent) {
-    parent_.resize(num);
-    for (size_t i = 0; i < num; ++i) parent_[i] = static_cast<int32_t>(i);
-  }
-
-  size_t Find(size_t run) {
-    auto root = static_cast<int32_t>(run);
-    while (Parent(root) != root) root = Parent(root) = Parent(Parent(root));
-    return static_cast<size_t>(root);
-  }
-
-  void Unite(size_t a, size_t b) {
-    const auto root_a = static_cast<int32_t>(Find(a)), root_b = static_cast<int32_t>(Find(b));
-    Parent(std::max(root_a, root_b)) = std::min(root_a, root_b);
-  }
-
- private:
-  int32_t& Parent(int32_t run) { return parent_[static_cast<size_t>(run)]; }
-
-  std::vector<int32_t>& parent_;
-};
-
 // Joins the runs of one component. Runs of one set are not compared again, and few runs of
 // different sets are near each other.
 class Joiner {
@@ -112,9 +81,9 @@ class Joiner {
         reach_(connection),
         reach_px_(std::max(1, connection.reach_px / points.thinning)),
         image_(*image),
-        sets_(image->runs.size(), &image->parent) {}
-
-  DisjointSets& sets() { return sets_; }
+        sets_(image->sets) {
+    sets_.Reset(image->runs.size());
+  }
 
   // Next rows first: nearly all runs are then in the right set.
   void JoinAll() {
@@ -135,8 +104,8 @@ class Joiner {
         while (first < image_.first_run[j + down + 1] && image_.runs[first].end <= from) ++first;
         for (size_t b = distance == 0 ? a + 1 : first;
              b < image_.first_run[j + down + 1] && image_.runs[b].begin < to; ++b) {
-          if (sets_.Find(a) != sets_.Find(b) && Touch(run, image_.runs[b], shift)) {
-            sets_.Unite(a, b);
+          if (sets_.Root(a) != sets_.Root(b) && Touch(run, image_.runs[b], shift)) {
+            sets_.Join(a, b);
           }
         }
       }
@@ -164,7 +133,7 @@ class Joiner {
   Reach reach_;
   int reach_px_;
   Components& image_;
-  DisjointSets sets_;
+  DisjointSets& sets_;
 };
 
 }  // namespace
@@ -174,17 +143,16 @@ Components FindComponents(const PointImage& points, const Connection& connection
   Components components = std::move(recycled);
   components.num_components = 0;
   FindRuns(points, Reach(connection), &components);
-  Joiner joiner(points, connection, &components);
-  joiner.JoinAll();
+  Joiner(points, connection, &components).JoinAll();
 
   std::vector<PointRun>& runs = components.runs;
   components.num_points.assign(runs.size(), 0);
   for (size_t i = 0; i < runs.size(); ++i) {
-    components.num_points[joiner.sets().Find(i)] +=
+    components.num_points[components.sets.Root(i)] +=
         static_cast<int32_t>(runs[i].end - runs[i].begin);
   }
   for (size_t i = 0; i < runs.size(); ++i) {
-    const size_t root = joiner.sets().Find(i);
+    const size_t root = components.sets.Root(i);
     if (components.num_points[root] < min_points) continue;
     if (root == i) runs[i].component = components.num_components++;
     runs[i].component = runs[root].component;

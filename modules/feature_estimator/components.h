@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "modules/feature_estimator/point_image.h"
+#include "modules/geometry/disjoint_sets.h"
 
 namespace declutter {
 
@@ -30,7 +31,8 @@ struct Components {
   // What finding them needs meanwhile: the first run of each row, the set of each run and its
   // number of points.
   std::vector<size_t> first_run;
-  std::vector<int32_t> parent, num_points;
+  DisjointSets sets;
+  std::vector<int32_t> num_points;
   std::vector<uint8_t> joined, edges;  // where runs go on, and begin or end, in a row
 };
 

@@ -5,34 +5,10 @@
 #include <utility>
 
 #include "modules/geometry/for_each_processor.h"
-#include "modules/geometry/marked_pixels.h"
+#include "modules/geometry/pixel_runs.h"
 
 namespace declutter {
 namespace {
-
-// Disjoint sets, in given memory; the root of a set is its smallest element.
-class DisjointSets {
- public:
-  DisjointSets(size_t size, std::vector<size_t>* parent) : parent_(*parent) {
-    parent_.resize(size);
-    for (size_t i = 0; i < size; ++i) parent_[i] = i;
-  }
-  size_t Root(size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void Join(size_t i, size_t j) {
-    i = Root(i);
-    j = Root(j);
-    if (i > j) std::swap(i, j);
-    parent_[j] = i;
-  }
-
- private:
-  std::vector<size_t>& parent_;
-};
-
-constexpr uint8_t kBegins = 1, kEnds = 2;
 
 // Marks in joined[1 .. num - 1] the pixels of a row that are connected with the one before, and in
 // edges those that a run begins or ends with.
@@ -43,8 +19,7 @@ DECLUTTER_FOR_EACH_PROCESSOR void MarkEdges(const uint8_t* mask, const float* va
     joined[i] = mask[i] & mask[i - 1] & is_near;
   }
   for (size_t i = 0; i < num; ++i) {
-    const int begins = joined[i] > 0 ? 0 : kBegins, ends = joined[i + 1] > 0 ? 0 : kEnds;
-    edges[i] = static_cast<uint8_t>(mask[i] > 0 ? begins + ends : 0);
+    edges[i] = RunEdges(mask[i] > 0, joined[i], joined[i + 1]);
   }
 }
 
@@ -58,10 +33,7 @@ void FindRuns(size_t width, size_t height, const std::vector<uint8_t>& mask,
   for (size_t row = 0; row < width * height; row += width) {
     rows->first_run.push_back(rows->runs.size());
     MarkEdges(&mask[row], &values[row], width, max_step, rows->joined.data(), rows->edges.data());
-    ForEachMarked(rows->edges.data(), 0, width, [&](size_t u) {
-      if ((rows->edges[u] & kBegins) != 0) rows->runs.push_back({row + u, row + u});
-      if ((rows->edges[u] & kEnds) != 0) rows->runs.back().end = row + u + 1;
-    });
+    AppendRuns(rows->edges, row, &rows->runs);
   }
   rows->first_run.push_back(rows->runs.size());
 }
@@ -90,7 +62,8 @@ ComponentRuns FindComponents(int width, int height, const std::vector<uint8_t>& 
   FindRuns(columns, static_cast<size_t>(height), mask, values, max_step, &components);
   std::vector<ComponentRun>& runs = components.runs;
   const std::vector<size_t>& first_run = components.first_run;
-  DisjointSets sets(runs.size(), &components.parent);
+  DisjointSets& sets = components.sets;
+  sets.Reset(runs.size());
   for (size_t v = 1; v < static_cast<size_t>(height); ++v) {
     size_t first = first_run[v - 1];
     for (size_t i = first_run[v]; i < first_run[v + 1]; ++i) {

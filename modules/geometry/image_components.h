@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "modules/geometry/disjoint_sets.h"
+
 namespace declutter {
 
 // Pixels begin .. end - 1 of one row, all of one component.
@@ -22,7 +24,7 @@ struct ComponentRuns {
 
   // What finding them needs meanwhile: the set of each run, named by its first one, and where runs
   // go on and begin or end in a row.
-  std::vector<size_t> parent;
+  DisjointSets sets;
   std::vector<uint8_t> joined, edges;
 };
 

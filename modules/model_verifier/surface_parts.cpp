@@ -48,7 +48,7 @@ void PartFinder::GatherParts(const Input& input) {
     for (int u = 0; u < columns_; ++u) {
       const Pixel& pixel = pixels_[Index(u, v)];
       if (pixel.label < 0) continue;
-      SurfacePart& part = parts_[static_cast<size_t>(labels_.Root(pixel.label))];
+      SurfacePart& part = parts_[labels_.Root(pixel.label)];
       (pixel.is_top() ? part.tops : part.sides).push_back(pixel.p_T);
       if (!pixel.is_top() || IsFreeEdge(u, v, input)) {
         part.outline.push_back(pixel.p_T.head<2>());
@@ -133,11 +133,11 @@ void PartFinder::GrowTopsOverRims() {
   sums_.assign(labels_.size(), Eigen::Vector2f::Zero());
   for (const Pixel& pixel : pixels_) {
     if (pixel.label < 0 || !pixel.is_top()) continue;
-    sums_[static_cast<size_t>(labels_.Root(pixel.label))] += Eigen::Vector2f(pixel.p_T.z(), 1);
+    sums_[labels_.Root(pixel.label)] += Eigen::Vector2f(pixel.p_T.z(), 1);
   }
   for (Pixel& pixel : pixels_) {
     if (pixel.label < 0 || pixel.kind != FaceKind::kVague) continue;
-    const Eigen::Vector2f& sum = sums_[static_cast<size_t>(labels_.Root(pixel.label))];
+    const Eigen::Vector2f& sum = sums_[labels_.Root(pixel.label)];
     if (std::abs(pixel.p_T.z() * sum.y() - sum.x()) < kMaxTopStep * sum.y()) {
       pixel.kind = FaceKind::kTop;
     }

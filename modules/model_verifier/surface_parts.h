@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "modules/geometry/disjoint_sets.h"
 #include "modules/geometry/reused_list.h"
 #include "modules/model_verifier/observation.h"
 #include "modules/model_verifier/projection.h"
@@ -32,34 +33,28 @@ enum class FaceKind : int8_t { kVague, kSide, kTop };
 class PartLabels {
  public:
   void Clear() {
-    parent_.clear();
+    sets_.Reset(0);
     kind_.clear();
   }
   int32_t New(FaceKind kind) {
-    parent_.push_back(static_cast<int32_t>(parent_.size()));
     kind_.push_back(kind);
-    return parent_.back();
+    return static_cast<int32_t>(sets_.Add());
   }
-  int32_t Root(int32_t label) {
-    int32_t& parent = parent_[static_cast<size_t>(label)];
-    if (parent != label) parent = Root(parent);
-    return parent;
-  }
-  FaceKind KindOf(int32_t label) { return kind_[static_cast<size_t>(Root(label))]; }
+  size_t Root(int32_t label) { return sets_.Root(static_cast<size_t>(label)); }
+  FaceKind KindOf(int32_t label) { return kind_[Root(label)]; }
   void Raise(int32_t label, FaceKind kind) {
-    FaceKind& known = kind_[static_cast<size_t>(Root(label))];
+    FaceKind& known = kind_[Root(label)];
     known = std::max(known, kind);
   }
   void Join(int32_t a, int32_t b) {
-    const int32_t x = Root(a), y = Root(b);
     const FaceKind kind = std::max(KindOf(a), KindOf(b));
-    parent_[static_cast<size_t>(std::max(x, y))] = std::min(x, y);
+    sets_.Join(static_cast<size_t>(a), static_cast<size_t>(b));
     Raise(a, kind);
   }
-  size_t size() const { return parent_.size(); }
+  size_t size() const { return sets_.size(); }
 
  private:
-  std::vector<int32_t> parent_;
+  DisjointSets sets_;
   std::vector<FaceKind> kind_;
 };
 
