@@ -161,12 +161,7 @@ double ModelSelection::Gain(Candidate* candidate) const {
 
 // [px] that speak for a solid and are explained by no selected one.
 double ModelSelection::UnsharedFit(const RayEvidence& evidence) const {
-  int64_t fit_sum = 0;
-  for (size_t i = 0; i < evidence.explained.size(); ++i) {
-    const bool is_free = num_explaining_[static_cast<size_t>(evidence.explained[i])] == 0;
-    fit_sum += is_free ? evidence.fits[i] : 0;
-  }
-  return static_cast<double>(evidence.pixel_weight * fit_sum) / kFitUnit;
+  return FitAlone(evidence, num_explaining_, 0);
 }
 
 double ModelSelection::CountGain(const Candidate& candidate) const {

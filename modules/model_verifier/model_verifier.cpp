@@ -55,13 +55,8 @@ void CountExplaining(const std::vector<RayEvidence>& evidence, size_t num_object
 bool IsSupported(const ObjectModel& object, const RayEvidence& evidence,
                  const std::vector<uint8_t>& num_explaining, double min_px) {
   constexpr double kMinOwnShare = 0.4;  // of what speaks for it
-  double unshared = 0;                  // [kFitUnit]
-  for (size_t k = 0; k < evidence.explained.size(); ++k) {
-    const bool is_shared = num_explaining[static_cast<size_t>(evidence.explained[k])] > 1;
-    unshared += is_shared ? 0 : evidence.fits[k];
-  }
-  const double balance = unshared / kFitUnit - evidence.num_violating - evidence.num_contradicting -
-                         evidence.num_overhanging;
+  const double balance = FitAlone(evidence, num_explaining, 1) - evidence.num_violating -
+                         evidence.num_contradicting - evidence.num_overhanging;
   const bool is_seen = std::any_of(object.evidence.begin(), object.evidence.end(),
                                    [](Evidence extent) { return extent != Evidence::kAssumed; });
   return balance >= std::max(min_px, kMinOwnShare * evidence.Fit()) &&

@@ -78,6 +78,16 @@ void CastRays(const Solid& solid, const Observation& observation, RayEvidence* r
   evidence.num_unknown = weight * counts.num_unknown;
 }
 
+double FitAlone(const RayEvidence& evidence, const std::vector<uint8_t>& num_explaining,
+                int max_num) {
+  int64_t fit_sum = 0;
+  for (size_t i = 0; i < evidence.explained.size(); ++i) {
+    const bool is_alone = num_explaining[static_cast<size_t>(evidence.explained[i])] <= max_num;
+    fit_sum += is_alone ? evidence.fits[i] : 0;
+  }
+  return static_cast<double>(evidence.pixel_weight * fit_sum) / kFitUnit;
+}
+
 void FindExplainedPoints(const Solid& solid, const RayEvidence& evidence,
                          const Observation& observation, std::vector<Eigen::Vector3d>* points_O) {
   const PixelGrid& grid = observation.grid;

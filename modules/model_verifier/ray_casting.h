@@ -62,6 +62,11 @@ struct RayEvidence {
 RayEvidence CastRays(const Solid& solid, const Observation& observation);
 void CastRays(const Solid& solid, const Observation& observation, RayEvidence* replaced);
 
+// [px] of the fit from pixels that at most max_num solids explain: num_explaining tells how many
+// do, for each pixel of the grid.
+double FitAlone(const RayEvidence& evidence, const std::vector<uint8_t>& num_explaining,
+                int max_num);
+
 // The measured points that a solid explains, in O [m], in place of what points_O held.
 void FindExplainedPoints(const Solid& solid, const RayEvidence& evidence,
                          const Observation& observation, std::vector<Eigen::Vector3d>* points_O);
