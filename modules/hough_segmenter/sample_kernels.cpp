@@ -41,6 +41,19 @@ HWY_INLINE Vector Cross(const Vector2& a, const Vector2& b) {
 }
 HWY_INLINE Vector Norm(const Vector2& a) { return hn::Sqrt(Dot(a, a)); }
 
+// Samples with their normals, and the way from one to the other.
+struct Pairs {
+  Vector2 a, b, na, nb, ab;
+};
+
+// Of the pairs from i on.
+HWY_INLINE Pairs LoadPairs(const SamplePairs& pairs, size_t i) {
+  const Vector2 a = Load2(pairs, SamplePairs::kAx, SamplePairs::kAy, i);
+  const Vector2 b = Load2(pairs, SamplePairs::kBx, SamplePairs::kBy, i);
+  return {a, b, Load2(pairs, SamplePairs::kAnx, SamplePairs::kAny, i),
+          Load2(pairs, SamplePairs::kBnx, SamplePairs::kBny, i), Sub(b, a)};
+}
+
 // Appends the models of the lanes in the mask, of three parameters each, to the first num ones.
 template <typename Shape>
 HWY_INLINE size_t Append(const Mask& is_model, const Vector& p0, const Vector& p1, const Vector& p2,
@@ -57,11 +70,7 @@ size_t LinesThroughPairs(const SamplePairs& pairs, float min_cos, LineShape* lin
   const auto least_cos = hn::Set(f, min_cos);
   size_t num = 0;
   for (size_t i = 0; i < pairs.size(); i += kLanes) {
-    const Vector2 a = Load2(pairs, SamplePairs::kAx, SamplePairs::kAy, i);
-    const Vector2 b = Load2(pairs, SamplePairs::kBx, SamplePairs::kBy, i);
-    const Vector2 na = Load2(pairs, SamplePairs::kAnx, SamplePairs::kAny, i);
-    const Vector2 nb = Load2(pairs, SamplePairs::kBnx, SamplePairs::kBny, i);
-    const Vector2 ab = Sub(b, a);
+    const auto [a, b, na, nb, ab] = LoadPairs(pairs, i);
     const auto length = Norm(ab);
     Vector2 n{hn::Div(ab.y, length), hn::Neg(hn::Div(ab.x, length))};
     const auto is_inward = hn::Lt(Dot(n, Add(na, nb)), hn::Zero(f));
@@ -80,11 +89,7 @@ size_t CirclesThroughPairs(const SamplePairs& pairs, const Range& radii, CircleS
   const auto half = hn::Set(f, 0.5f);
   size_t num = 0;
   for (size_t i = 0; i < pairs.size(); i += kLanes) {
-    const Vector2 a = Load2(pairs, SamplePairs::kAx, SamplePairs::kAy, i);
-    const Vector2 b = Load2(pairs, SamplePairs::kBx, SamplePairs::kBy, i);
-    const Vector2 na = Load2(pairs, SamplePairs::kAnx, SamplePairs::kAny, i);
-    const Vector2 nb = Load2(pairs, SamplePairs::kBnx, SamplePairs::kBny, i);
-    const Vector2 ab = Sub(b, a);
+    const auto [a, b, na, nb, ab] = LoadPairs(pairs, i);
     // c = a - ra * na = b - rb * nb
     const auto sine = Cross(na, nb);
     const auto ra = hn::Div(hn::Neg(Cross(ab, nb)), sine);
