@@ -12,7 +12,7 @@ namespace {
 
 // Standard deviations of 1 / z by which feet, and upper parts, are off the plane.
 constexpr float kFootSigmas = 1.5f;
-constexpr float kObjectSigmas = 4.0f;
+constexpr float kObjectSigmas = 5.0f;
 
 // Largest step of 1 / z within a region, in standard deviations.
 constexpr float kStepSigmas = 10.0f;
