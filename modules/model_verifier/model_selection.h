@@ -65,6 +65,7 @@ class ModelSelection {
   // model_selection_late.cpp
   void ProposeAboveBlockers(const Input& input);
   void ProposeUpperParts(const Input& input);
+  bool IsOneColumn(const Candidate& lower, const Solid& upper, const Input& input);
   void AddUpperPart(size_t index, double floor, const Input& input);
   void ProposeForUnexplained(const Input& input);
   // model_selection_exchange.cpp

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/model_verifier/column.h"
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/support_settling.h"
 
@@ -8,17 +9,6 @@ namespace declutter {
 namespace {
 
 constexpr double kMinHeight = 0.015;  // [m] that can be grasped
-
-// True for upright solids whose outlines, seen from above, differ by no more than blurred edges.
-bool HaveOneCrossSection(const Solid& a, const Solid& b) {
-  constexpr double kMaxDifference = 0.010;  // [m]
-  const auto range = [](const Solid& solid) { return std::minmax(solid.size.x(), solid.size.y()); };
-  const Eigen::Vector3d shift_O =
-      a.X_CO.linear().transpose() * (b.X_CO.translation() - a.X_CO.translation());
-  return a.shape == b.shape && shift_O.head<2>().norm() < kMaxDifference &&
-         std::abs(range(a).first - range(b).first) < kMaxDifference &&
-         std::abs(range(a).second - range(b).second) < kMaxDifference;
-}
 
 }  // namespace
 
@@ -81,13 +71,23 @@ void ModelSelection::ProposeUpperParts(const Input& input) {
     const auto lower =
         AddRefined(Hypothesis(candidates_[*best].hypothesis), config_.min_explained_px(), input);
     if (!lower) continue;
-    const Solid& below = candidates_[*lower].hypothesis.solid;
-    if (HaveOneCrossSection(below, candidates_[upper].hypothesis.solid)) {
-      --num_candidates_;  // a column is one solid
+    const double floor = TopOf(candidates_[*lower].hypothesis.solid, support);
+    if (floor > top - kMinHeight || IsOneColumn(candidates_[*lower], solid, input)) {
+      --num_candidates_;
     } else {
-      AddUpperPart(upper, TopOf(below, support), input);
+      AddUpperPart(upper, floor, input);
     }
   }
+}
+
+// True when an upright solid looks like the upper part of a candidate that was put below it.
+bool ModelSelection::IsOneColumn(const Candidate& lower, const Solid& upper, const Input& input) {
+  const Solid& solid = lower.hypothesis.solid;
+  if (HaveOneCrossSection(solid, upper)) return true;
+  if (!AreFlush(solid, upper)) return false;
+  std::vector<Eigen::Vector3d>& points_O = input.buffers->explained_O;
+  FindExplainedPoints(solid, lower.evidence, input.observation, &points_O);
+  return !IsTopSeen(solid, points_O, lower.evidence.pixel_weight);
 }
 
 // The part of an upright candidate above a floor [m] over the support plane, as another candidate.

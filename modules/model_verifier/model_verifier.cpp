@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "modules/geometry/sensor_noise.h"
+#include "modules/model_verifier/column.h"
 #include "modules/model_verifier/confidence.h"
 #include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/refinement.h"
@@ -152,10 +153,11 @@ void ModelVerifier::Measure(ObjectList* list) {
                                observation.support};
   for (size_t i = 0; i < num; ++i) {
     ObjectModel& object = list->objects[i];
-    object.confidence = static_cast<float>(
-        Confidence(object, evidence_[i], NumUnexplained(object.solid, unlabelled)));
     std::vector<Eigen::Vector3d>& points_O = buffers_.explained_O;
     FindExplainedPoints(object.solid, evidence_[i], observation, &points_O);
+    const bool is_top_seen = IsTopSeen(object.solid, points_O, evidence_[i].pixel_weight);
+    object.confidence = static_cast<float>(
+        Confidence(object, evidence_[i], NumUnexplained(object.solid, is_top_seen, unlabelled)));
     if (object.solid.shape == Shape::kCylinder) {
       object.confidence *= static_cast<float>(ShareOfSide(object.solid, points_O));
     }

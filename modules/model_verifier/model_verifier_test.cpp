@@ -144,6 +144,34 @@ TEST(ModelVerifier, CutsWhatReachesDownIntoWhatItStandsOn) {
   EXPECT_EQ(upper.supported_by, list.objects[0].id);
 }
 
+TEST(ModelVerifier, TakesACartonThatBulgesForOneBox) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.196 size_y_m: 0.068 size_z_m: 0.17 } y_m: 0.6 yaw_rad: 0.5 }"
+      "object { box { size_x_m: 0.19 size_y_m: 0.056 size_z_m: 0.09 } y_m: 0.6 yaw_rad: 0.5 on: 0 "
+      "}");
+  const Solid whole = Changed(scene.objects[1].solid, {0, 0, -0.085}, {0, 0, 0.17});
+  // Its hidden side was taken to lie farther back.
+  const Solid lower = Changed(scene.objects[0].solid, {0, 0.012, 0}, {0, 0.024, 0});
+  const ObjectList list = Verify(scene, {Proposal(whole), Proposal(lower)});
+  ASSERT_THAT(list.objects, SizeIs(1));
+  EXPECT_NEAR(list.objects[0].solid.height(), 0.26, 0.003);
+}
+
+TEST(ModelVerifier, TakesNoPartOfABowlForACylinder) {
+  std::string bowl = "object { cylinder { radius_m: 0.08 height_m: 0.05 } y_m: 0.65 }";
+  for (int i = 0; i < 8; ++i) {
+    bowl += "object { cylinder { radius_m: " + std::to_string(0.076 - 0.005 * i) +
+            " height_m: 0.01 } y_m: 0.65 on: " + std::to_string(i) + " }";
+  }
+  const RenderedScene scene = RenderText(bowl);
+  const Hypothesis rim = Proposal(scene.objects[0].solid);
+  EXPECT_THAT(Verify(scene, {rim}).objects, IsEmpty());
+  // With what explains the rest, it is one.
+  std::vector<Hypothesis> all;
+  for (const TrueObject& object : scene.objects) all.push_back(Proposal(object.solid));
+  EXPECT_FALSE(Verify(scene, all).objects.empty());
+}
+
 TEST(ModelVerifier, ExtendsAHiddenBottomToTheTable) {
   const RenderedScene scene = RenderText(kBox);
   Hypothesis upper = Proposal(Changed(scene.objects[0].solid, {0, 0, 0.03}, {0, 0, -0.06}));
