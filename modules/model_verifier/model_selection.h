@@ -54,6 +54,8 @@ class ModelSelection {
   Candidate& candidate(size_t index) { return candidates_[index]; }
 
  private:
+  static constexpr double kMinImprovement = 1.02;  // of the gain, by an exchange
+
   // What one run works on.
   struct Input {
     const Observation& observation;
@@ -72,12 +74,14 @@ class ModelSelection {
   bool Exchange(const Input& input);
   bool IsWorthTrying(size_t index);
   const std::vector<size_t>& BlockersOf(size_t index);
-  const std::vector<size_t>& Only(size_t index);
+  const std::vector<size_t>& Only(std::initializer_list<size_t> indices);
   bool Replace(const std::vector<size_t>& old, std::optional<size_t> first, const Input& input,
                double share_of_old = 1);
+  // model_selection_changes.cpp
   bool Split(size_t old, const Input& input);
   bool CutLower(size_t old, const Input& input);
   bool Reshape(size_t old, const Input& input);
+  bool Unite(size_t old, const Input& input);
   std::optional<size_t> BestOver(const std::vector<uint8_t>& is_marked, const Candidate& candidate,
                                  const Input& input);
   bool ReplaceByParts(std::initializer_list<Solid> parts, size_t old, double share_of_old,
