@@ -1,6 +1,8 @@
 #include "modules/model_verifier/hidden_middle.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace declutter {
@@ -37,23 +39,43 @@ std::optional<Range> RangeAlong(int axis, const std::vector<Eigen::Vector3d>& po
 
 }  // namespace
 
-std::optional<Solid> ProlongedOver(const std::vector<Eigen::Vector3d>& points_O, Solid solid) {
-  const bool is_box = solid.shape == Shape::kBox;
-  const Eigen::Vector3d half = 0.5 * solid.size;
-  for (int axis = is_box ? 0 : 2; axis < (is_box ? 2 : 3); ++axis) {
+std::optional<Solid> ProlongedOver(const std::vector<Eigen::Vector3d>& points_O, Solid box) {
+  const Eigen::Vector3d half = 0.5 * box.size;
+  for (int axis = 0; axis < 2; ++axis) {
     const auto range = RangeAlong(axis, points_O, half);
     if (!range) continue;
     const double above = range->high - half[axis];
     const double below = -half[axis] - range->low;
     if ((above > kEdgeBlur) == (below > kEdgeBlur)) continue;
     const double growth = std::max(above, below);
-    if (solid.size[axis] + growth > kMaxExtent) continue;
-    solid.size[axis] += growth;
-    solid.X_CO.translation() +=
-        (above > below ? 0.5 : -0.5) * growth * solid.X_CO.linear().col(axis);
-    return solid;
+    if (box.size[axis] + growth > kMaxExtent) continue;
+    box.size[axis] += growth;
+    box.X_CO.translation() += (above > below ? 0.5 : -0.5) * growth * box.X_CO.linear().col(axis);
+    return box;
   }
   return std::nullopt;
+}
+
+std::optional<Solid> CylinderThrough(const Solid& a, const Solid& b) {
+  constexpr double kMinCos = 0.95;  // 18 degrees: the axis of a short piece is not well known
+  const Eigen::Vector3d shift = b.X_CO.translation() - a.X_CO.translation();
+  const double distance = shift.norm();
+  const Eigen::Vector3d axis = a.X_CO.linear().col(2);
+  const double along = axis.dot(shift) / std::max(1e-9, distance);
+  if (std::abs(a.radius() - b.radius()) > kEdgeBlur || std::abs(along) < kMinCos ||
+      std::abs(axis.dot(b.X_CO.linear().col(2))) < kMinCos) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d direction = std::copysign(1 / distance, along) * shift;
+  const double low = std::min(-0.5 * a.height(), std::copysign(distance, along) - 0.5 * b.height());
+  const double high = std::max(0.5 * a.height(), std::copysign(distance, along) + 0.5 * b.height());
+  if (high - low > kMaxExtent) return std::nullopt;
+  Solid whole = a;
+  whole.X_CO.linear() =
+      Eigen::Quaterniond::FromTwoVectors(axis, direction).toRotationMatrix() * a.X_CO.linear();
+  whole.X_CO.translation() += 0.5 * (low + high) * direction;
+  whole.size.z() = high - low;
+  return whole;
 }
 
 }  // namespace declutter

@@ -30,14 +30,6 @@ TEST(ProlongedOver, MovesTheEndTowardThePoints) {
                   .isApprox(kBox.X_CO * Eigen::Vector3d(0, 0.03, 0)));
 }
 
-TEST(ProlongedOver, ProlongsACylinderAlongItsAxis) {
-  const Solid cylinder = SolidOf(Shape::kCylinder, {0.08, 0.08, 0.1});
-  EXPECT_FALSE(ProlongedOver({{0.09, 0, 0}}, cylinder));
-  const auto longer = ProlongedOver({{0.03, 0.02, 0.1}}, cylinder);
-  ASSERT_TRUE(longer);
-  EXPECT_TRUE(longer->size.isApprox(Eigen::Vector3d(0.08, 0.08, 0.15)));
-}
-
 TEST(ProlongedOver, NothingForPointsThatLieElsewhere) {
   EXPECT_FALSE(ProlongedOver({}, kBox));
   EXPECT_FALSE(ProlongedOver({{0.15, 0.05, 0.04}}, kBox));  // beside its prolongation
@@ -53,6 +45,42 @@ TEST(ProlongedOver, ForgivesAFewPoints) {
   const auto longer = ProlongedOver(points, kBox);
   ASSERT_TRUE(longer);
   EXPECT_NEAR(longer->size.x(), 0.15, 1e-9);
+}
+
+TEST(CylinderThrough, ReachesFromOneFarEndToTheOther) {
+  const Solid long_one = SolidOf(Shape::kCylinder, {0.08, 0.08, 0.2});
+  // Pieces of it of which each axis is off a little, the second one pointing back.
+  Solid a = long_one;
+  a.size.z() = 0.06;
+  a.X_CO =
+      a.X_CO * Eigen::Translation3d(0, 0, 0.07) * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX());
+  Solid b = long_one;
+  b.size = Eigen::Vector3d(0.084, 0.084, 0.04);
+  b.X_CO = b.X_CO * Eigen::Translation3d(0, 0, -0.08) *
+           Eigen::AngleAxisd(M_PI - 0.1, Eigen::Vector3d::UnitY());
+  for (const auto& whole : {CylinderThrough(a, b), CylinderThrough(b, a)}) {
+    ASSERT_TRUE(whole);
+    EXPECT_NEAR(whole->height(), 0.2, 1e-9);
+    EXPECT_TRUE(whole->X_CO.translation().isApprox(long_one.X_CO.translation()));
+    EXPECT_NEAR(std::abs(whole->X_CO.linear().col(2).dot(long_one.X_CO.linear().col(2))), 1, 1e-9);
+  }
+}
+
+TEST(CylinderThrough, NothingWhenTheyAreNotOfOne) {
+  const Solid a = SolidOf(Shape::kCylinder, {0.08, 0.08, 0.06});
+  const auto moved = [&](const Eigen::Vector3d& shift_O, double angle, double growth) {
+    Solid b = a;
+    b.X_CO =
+        b.X_CO * Eigen::Translation3d(shift_O) * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX());
+    b.size.head<2>().array() += growth;
+    return b;
+  };
+  EXPECT_TRUE(CylinderThrough(a, moved({0, 0, 0.1}, 0, 0)));
+  EXPECT_FALSE(CylinderThrough(a, moved({0, 0.05, 0.1}, 0, 0)));
+  EXPECT_FALSE(CylinderThrough(a, moved({0, 0, 0.1}, 0.5, 0)));
+  EXPECT_FALSE(CylinderThrough(a, moved({0, 0, 0.1}, 0, 0.03)));
+  EXPECT_FALSE(CylinderThrough(a, moved({0, 0, 0.4}, 0, 0)));
+  EXPECT_FALSE(CylinderThrough(a, a));
 }
 
 }  // namespace

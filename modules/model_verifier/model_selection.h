@@ -82,6 +82,7 @@ class ModelSelection {
   bool CutLower(size_t old, const Input& input);
   bool Reshape(size_t old, const Input& input);
   bool Unite(size_t old, const Input& input);
+  std::optional<Solid> Through(const Solid& solid, const Candidate& candidate, const Input& input);
   std::optional<size_t> BestOver(const std::vector<uint8_t>& is_marked, const Candidate& candidate,
                                  const Input& input);
   bool ReplaceByParts(std::initializer_list<Solid> parts, size_t old, double share_of_old,

@@ -115,6 +115,15 @@ bool ModelSelection::ReplaceByParts(std::initializer_list<Solid> parts, size_t o
          Replace(Only({old}), first, input, share_of_old);
 }
 
+// A solid that reaches from the far end of one to that of a candidate of its shape.
+std::optional<Solid> ModelSelection::Through(const Solid& solid, const Candidate& candidate,
+                                             const Input& input) {
+  if (solid.shape == Shape::kCylinder) return CylinderThrough(solid, candidate.hypothesis.solid);
+  std::vector<Eigen::Vector3d>& points_O = input.buffers->explained_O;
+  FindExplainedPoints(solid, candidate.evidence, input.observation, &points_O);
+  return ProlongedOver(points_O, solid);
+}
+
 // Gives the place of two selected candidates to one that goes on behind what hides its middle. As a
 // sensor bends it, both may explain somewhat more, if little of free space is inside. True when
 // that was done.
@@ -134,9 +143,7 @@ bool ModelSelection::Unite(size_t old, const Input& input) {
         std::abs(TopOf(smaller.hypothesis.solid, support) - TopOf(solid, support)) > kMaxTopStep) {
       continue;
     }
-    std::vector<Eigen::Vector3d>& points_O = input.buffers->explained_O;
-    FindExplainedPoints(solid, evidence, input.observation, &points_O);
-    const auto longer = ProlongedOver(points_O, solid);
+    const auto longer = Through(solid, smaller, input);
     if (!longer) continue;
     Hypothesis hypothesis = larger.hypothesis;
     hypothesis.solid = *longer;
@@ -150,6 +157,7 @@ bool ModelSelection::Unite(size_t old, const Input& input) {
     if (whole.evidence.num_violating <= max_violating &&
         std::all_of(blockers.begin(), blockers.end(), is_part) &&
         Replace(Only({old, part}), added, input, kMinShare * (1 - whole.misfit_share))) {
+      candidates_[old].is_out = candidates_[part].is_out = true;
       return true;
     }
   }

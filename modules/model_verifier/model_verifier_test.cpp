@@ -157,6 +157,25 @@ TEST(ModelVerifier, TakesACartonThatBulgesForOneBox) {
   EXPECT_NEAR(list.objects[0].solid.height(), 0.26, 0.003);
 }
 
+TEST(ModelVerifier, UnitesWhatIsSeenOnBothSidesOfAnObstacle) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.3 size_y_m: 0.1 size_z_m: 0.05 } y_m: 0.75 }"
+      "object { box { size_x_m: 0.06 size_y_m: 0.06 size_z_m: 0.25 } x_m: -0.02 y_m: 0.62 }");
+  const Solid& truth = scene.objects[0].solid;
+  const Hypothesis left = Proposal(Changed(truth, {-0.1, 0, 0}, {-0.2, 0, 0}));
+  const Hypothesis right = Proposal(Changed(truth, {0.085, 0, 0}, {-0.17, 0, 0}));
+  const Hypothesis obstacle = Proposal(scene.objects[1].solid);
+  const ObjectList list = Verify(scene, {left, right, obstacle});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  EXPECT_NEAR(list.objects[0].solid.size.x(), 0.3, 0.003);
+
+  // Where the table is seen between them, they are two.
+  const RenderedScene apart = RenderText(
+      "object { box { size_x_m: 0.1 size_y_m: 0.1 size_z_m: 0.05 } x_m: -0.1 y_m: 0.75 }"
+      "object { box { size_x_m: 0.13 size_y_m: 0.1 size_z_m: 0.05 } x_m: 0.085 y_m: 0.75 }");
+  EXPECT_THAT(Verify(apart, {left, right}).objects, SizeIs(2));
+}
+
 TEST(ModelVerifier, TakesNoPartOfABowlForACylinder) {
   std::string bowl = "object { cylinder { radius_m: 0.08 height_m: 0.05 } y_m: 0.65 }";
   for (int i = 0; i < 8; ++i) {
