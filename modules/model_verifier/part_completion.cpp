@@ -16,7 +16,7 @@ constexpr size_t kMinSides = 6;       // points that tell how far down a side go
 constexpr float kMinExtent = 0.015f;  // [m] that can be grasped
 constexpr float kMaxExtent = 0.40f;
 constexpr float kMinRadius = 0.015f;
-constexpr float kMaxRadius = 0.12f;
+constexpr float kMaxRadius = 0.15f;
 constexpr float kTopOnlyDepth = 0.005f;  // [m] of side below a top of which none is seen
 constexpr float kMaxUnseen = 0.020f;     // [m] of side above the support
 
