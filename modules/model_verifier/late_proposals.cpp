@@ -87,6 +87,12 @@ const std::vector<LateProposal>& LateProposer::ProposeForUnexplained(
       proposals_.push_back({hypothesis, pixel_weight * static_cast<int>(part.num_points())});
     }
   }
+  constexpr int kMinFacePx = 400;  // that tell how a face is turned to a few degrees
+  for (const LeaningBox& box : leaning_.Find(is_marked_, window, kMinFacePx, observation)) {
+    Hypothesis hypothesis;
+    hypothesis.solid = box.solid;
+    proposals_.push_back({hypothesis, box.num_px});
+  }
   return proposals_;
 }
 

@@ -7,13 +7,14 @@
 
 #include "modules/geometry/convex_hull.h"
 #include "modules/geometry/solid.h"
+#include "modules/model_verifier/leaning_boxes.h"
 #include "modules/model_verifier/observation.h"
 #include "modules/model_verifier/part_completion.h"
 #include "modules/model_verifier/surface_parts.h"
 
 namespace declutter {
 
-// A standing solid laid over points that nothing explained.
+// A solid laid over points that nothing explained.
 struct LateProposal {
   Hypothesis hypothesis;
   int num_px = 0;  // [px] of the sensor that it was laid over
@@ -42,6 +43,7 @@ class LateProposer {
   ConvexRegion region_;
   PartFinder parts_;
   PartCompletion completion_;
+  LeaningBoxFinder leaning_;
 };
 
 }  // namespace declutter

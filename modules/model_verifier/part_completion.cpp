@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "modules/geometry/edge_direction.h"
+#include "modules/geometry/quantile.h"
 
 namespace declutter {
 namespace {
@@ -25,14 +26,8 @@ struct Range {
 };
 
 Range Quantiles(std::vector<float>* values, float low, float high) {
-  const auto at = [&](float share) {
-    const auto rank =
-        static_cast<std::ptrdiff_t>(share * static_cast<float>(values->size() - 1) + 0.5f);
-    std::nth_element(values->begin(), values->begin() + rank, values->end());
-    return (*values)[static_cast<size_t>(rank)];
-  };
-  const float a = at(low);
-  return {a, at(high)};
+  const float a = Quantile(values, low);
+  return {a, Quantile(values, high)};
 }
 
 void SetToHeights(const std::vector<Eigen::Vector3f>& points, std::vector<float>* heights) {

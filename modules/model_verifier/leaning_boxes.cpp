@@ -1,0 +1,168 @@
+#include "modules/model_verifier/leaning_boxes.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "modules/geometry/quantile.h"
+#include "modules/geometry/sensor_noise.h"
+
+namespace declutter {
+namespace {
+
+constexpr float kMinPatchCos = 0.99f;        // 8 degrees between normals of neighbours on a plane
+constexpr double kMaxResidual = 1.5;         // [sigma] rms of the points of a patch
+constexpr double kMaxFaceCos = 0.17;         // 10 degrees off the right angle between two faces
+constexpr double kUprightCos = 0.985;        // 10 degrees: a box that leans less is taken to stand
+constexpr double kMinExtent = 0.015;         // [m] that can be grasped
+constexpr double kMaxExtent = 0.40;          // [m]
+constexpr double kLow = 0.02, kHigh = 0.98;  // quantiles of points where a box ends
+
+struct Range {
+  double low, high;
+};
+
+// Ends of points along a direction from an origin. values is a buffer.
+Range RangeAlong(const Eigen::Vector3d& direction, const Eigen::Vector3d& origin,
+                 const std::vector<Eigen::Vector3d>& points, std::vector<double>* values) {
+  values->clear();
+  for (const Eigen::Vector3d& p : points) values->push_back(direction.dot(p - origin));
+  const double low = Quantile(values, kLow);
+  return {low, Quantile(values, kHigh)};
+}
+
+// The same axes and extents, with the most upright axis as z.
+Solid WithUprightAxis(const Eigen::Matrix3d& axes, const Eigen::Vector3d& extents,
+                      const Eigen::Vector3d& up) {
+  int upright = 0;
+  (axes.transpose() * up).cwiseAbs().maxCoeff(&upright);
+  Solid box;
+  const Eigen::Vector3d z = std::copysign(1.0, axes.col(upright).dot(up)) * axes.col(upright);
+  const Eigen::Vector3d x = axes.col((upright + 1) % 3);
+  box.X_CO.linear() << x, z.cross(x), z;
+  box.size = {extents[(upright + 1) % 3], extents[(upright + 2) % 3], extents[upright]};
+  return box;
+}
+
+}  // namespace
+
+// Joins neighbours that lie on one plane.
+void LeaningBoxFinder::LabelPatches(const std::vector<uint8_t>& is_marked,
+                                    const PixelWindow& window, const Observation& observation) {
+  const PixelGrid& grid = observation.grid;
+  const auto columns = static_cast<size_t>(std::max(0, window.u_end - window.u_begin));
+  const auto rows = static_cast<size_t>(std::max(0, window.v_end - window.v_begin));
+  sets_.Reset(columns * rows);
+  points_.assign(columns * rows, Eigen::Vector3f::Zero());
+  normals_.resize(columns * rows);
+  const auto join_if_flat = [&](size_t a, size_t b) {
+    const Eigen::Vector3f& p = points_[a];
+    const Eigen::Vector3f& q = points_[b];
+    if (q.z() <= 0 || normals_[a].dot(normals_[b]) < kMinPatchCos) return;
+    const float step = std::abs(normals_[a].dot(p - q));
+    if (step < 3 * MeasurementSigma(p.z())) sets_.Join(a, b);
+  };
+  for (size_t j = 0; j < rows; ++j) {
+    const auto v = j + static_cast<size_t>(window.v_begin);
+    for (size_t i = 0; i < columns; ++i) {
+      const auto u = i + static_cast<size_t>(window.u_begin);
+      const float z = grid.z[v * grid.stride + u];
+      if (z <= 0 || is_marked[v * static_cast<size_t>(grid.columns) + u] == 0) continue;
+      const size_t a = j * columns + i;
+      normals_[a] =
+          observation.normals.At(grid.step * static_cast<int>(u), grid.step * static_cast<int>(v));
+      if (normals_[a].isZero()) continue;
+      points_[a] = z * Eigen::Vector3f(grid.ray_x[u], grid.ray_y[v], 1);
+      if (i > 0) join_if_flat(a, a - 1);
+      if (j > 0) join_if_flat(a, a - columns);
+    }
+  }
+}
+
+// Keeps what is large and flat.
+void LeaningBoxFinder::GatherPatches(size_t min_points) {
+  patches_.Clear();
+  num_points_.assign(points_.size(), 0);
+  patch_of_root_.assign(points_.size(), -1);
+  for (size_t i = 0; i < points_.size(); ++i) {
+    if (points_[i].z() > 0) ++num_points_[sets_.Root(i)];
+  }
+  for (size_t i = 0; i < points_.size(); ++i) {
+    const size_t root = sets_.Root(i);
+    if (points_[i].z() <= 0 || static_cast<size_t>(num_points_[root]) < min_points) continue;
+    if (patch_of_root_[root] < 0) {
+      patch_of_root_[root] = static_cast<int32_t>(patches_.size());
+      patches_.Add().points.clear();
+    }
+    patches_[static_cast<size_t>(patch_of_root_[root])].points.push_back(points_[i].cast<double>());
+  }
+  for (Patch& patch : patches_) {
+    const auto num = static_cast<double>(patch.points.size());
+    patch.mean.setZero();
+    for (const Eigen::Vector3d& p : patch.points) patch.mean += p / num;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (const Eigen::Vector3d& p : patch.points) {
+      covariance += (p - patch.mean) * (p - patch.mean).transpose() / num;
+    }
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(covariance);
+    patch.normal = solver.eigenvectors().col(0);
+    if (patch.normal.dot(patch.mean) > 0) patch.normal *= -1;
+    patch.is_flat = std::sqrt(std::max(0.0, solver.eigenvalues()[0])) <
+                    kMaxResidual * MeasurementSigma(patch.mean.z());
+  }
+}
+
+std::optional<Solid> LeaningBoxFinder::BoxOver(const Patch& a, const Patch& b,
+                                               const Eigen::Vector3d& up) {
+  if (std::abs(a.normal.dot(b.normal)) > kMaxFaceCos) return std::nullopt;
+  Eigen::Matrix3d axes;
+  axes.col(0) = a.normal;
+  axes.col(1) = (b.normal - a.normal.dot(b.normal) * a.normal).normalized();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  if ((axes.transpose() * up).cwiseAbs().maxCoeff() > kUprightCos) return std::nullopt;
+  std::array<Range, 3> ends;
+  for (int i = 0; i < 3; ++i) {
+    const Range of_a = RangeAlong(axes.col(i), a.mean, a.points, &coordinates_);
+    const Range of_b = RangeAlong(axes.col(i), a.mean, b.points, &coordinates_);
+    ends[static_cast<size_t>(i)] = {std::min(of_a.low, of_b.low), std::max(of_a.high, of_b.high)};
+  }
+  // Each face ends the other one.
+  ends[0].high = 0;
+  ends[1].high = axes.col(1).dot(b.mean - a.mean);
+  Eigen::Vector3d extents, centre;
+  for (int i = 0; i < 3; ++i) {
+    const Range& range = ends[static_cast<size_t>(i)];
+    extents[i] = range.high - range.low;
+    centre[i] = 0.5 * (range.low + range.high);
+  }
+  if (extents.minCoeff() < kMinExtent || extents.maxCoeff() > kMaxExtent) return std::nullopt;
+  Solid box = WithUprightAxis(axes, extents, up);
+  box.X_CO.translation() = a.mean + axes * centre;
+  return box;
+}
+
+const std::vector<LeaningBox>& LeaningBoxFinder::Find(const std::vector<uint8_t>& is_marked,
+                                                      const PixelWindow& window, int min_px,
+                                                      const Observation& observation) {
+  boxes_.clear();
+  const int pixel_weight = observation.grid.pixel_weight();
+  LabelPatches(is_marked, window, observation);
+  GatherPatches(static_cast<size_t>(min_px / pixel_weight));
+  for (size_t i = 0; i < patches_.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) {
+      const Patch& a = patches_[k];
+      const Patch& b = patches_[i];
+      if (!a.is_flat || !b.is_flat) continue;
+      const auto box = BoxOver(a, b, observation.support.normal);
+      const auto num_points = static_cast<int>(a.points.size() + b.points.size());
+      if (box) boxes_.push_back({*box, pixel_weight * num_points});
+    }
+  }
+  return boxes_;
+}
+
+}  // namespace declutter

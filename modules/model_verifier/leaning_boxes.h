@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "modules/geometry/disjoint_sets.h"
+#include "modules/geometry/reused_list.h"
+#include "modules/geometry/solid.h"
+#include "modules/model_verifier/observation.h"
+#include "modules/model_verifier/projection.h"
+
+namespace declutter {
+
+// A box that neither stands nor lies on a face, and how much it was laid over.
+struct LeaningBox {
+  Solid solid;
+  int num_px = 0;  // [px] of the sensor on the two faces that tell it
+};
+
+// Lays boxes over pairs of flat patches at right angles of which none is level: what leans against
+// something, or has it below one end. Each patch tells two of the extents. Memory is used again.
+class LeaningBoxFinder {
+ public:
+  // Among the marked pixels of a window of the grid; is_marked has one element per pixel of the
+  // grid. Each of the faces has at least min_px. The result is valid until the next call.
+  const std::vector<LeaningBox>& Find(const std::vector<uint8_t>& is_marked,
+                                      const PixelWindow& window, int min_px,
+                                      const Observation& observation);
+
+ private:
+  // Points on a plane.
+  struct Patch {
+    std::vector<Eigen::Vector3d> points;  // [m] in C
+    Eigen::Vector3d normal;               // in C, toward the camera
+    Eigen::Vector3d mean;                 // [m] in C
+    bool is_flat = false;
+  };
+
+  void LabelPatches(const std::vector<uint8_t>& is_marked, const PixelWindow& window,
+                    const Observation& observation);
+  void GatherPatches(size_t min_points);
+  std::optional<Solid> BoxOver(const Patch& a, const Patch& b, const Eigen::Vector3d& up);
+
+  DisjointSets sets_;                    // of the pixels of the window
+  std::vector<Eigen::Vector3f> points_;  // [m] in C of each pixel, z = 0: none that counts
+  std::vector<Eigen::Vector3f> normals_;
+  std::vector<int32_t> num_points_;  // of each set, at its root
+  std::vector<int32_t> patch_of_root_;
+  ReusedList<Patch> patches_;
+  std::vector<double> coordinates_;
+  std::vector<LeaningBox> boxes_;
+};
+
+}  // namespace declutter
