@@ -87,13 +87,35 @@ const std::vector<LateProposal>& LateProposer::ProposeForUnexplained(
       proposals_.push_back({hypothesis, pixel_weight * static_cast<int>(part.num_points())});
     }
   }
+  AddLeaning(window, X_TC, observation);
+  return proposals_;
+}
+
+const std::vector<LateProposal>& LateProposer::ProposeLeaning(const std::vector<Solid>& others,
+                                                              const Observation& observation) {
+  proposals_.clear();
+  if (others.empty()) return proposals_;
+  const Eigen::Isometry3d X_TC = TableFrame(observation.support);
+  const PixelWindow window = WindowOf(others, observation);
+  is_explained_.assign(static_cast<size_t>(observation.grid.num_pixels()), 0);
+  MarkUnexplained(is_explained_, window, observation, &is_marked_);
+  SetRegion(others, X_TC);
+  AddLeaning(window, X_TC, observation);
+  return proposals_;
+}
+
+void LateProposer::AddLeaning(const PixelWindow& window, const Eigen::Isometry3d& X_TC,
+                              const Observation& observation) {
   constexpr int kMinFacePx = 400;  // that tell how a face is turned to a few degrees
   for (const LeaningBox& box : leaning_.Find(is_marked_, window, kMinFacePx, observation)) {
+    const Eigen::Vector3d centre_T = X_TC * box.solid.X_CO.translation();
+    if (!region_.Contains(static_cast<float>(centre_T.x()), static_cast<float>(centre_T.y()))) {
+      continue;
+    }
     Hypothesis hypothesis;
     hypothesis.solid = box.solid;
     proposals_.push_back({hypothesis, box.num_px});
   }
-  return proposals_;
 }
 
 }  // namespace declutter

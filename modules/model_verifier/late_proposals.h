@@ -33,12 +33,19 @@ class LateProposer {
                                                          double min_px,
                                                          const Observation& observation);
 
+  // Boxes that lean, among or near others, laid over all that is seen. Valid until the next call.
+  const std::vector<LateProposal>& ProposeLeaning(const std::vector<Solid>& others,
+                                                  const Observation& observation);
+
  private:
   // Makes region_ the convex hull of solids seen from above, with a margin.
   void SetRegion(const std::vector<Solid>& solids, const Eigen::Isometry3d& X_TC);
+  // Boxes that lean, over the marked pixels, in the region.
+  void AddLeaning(const PixelWindow& window, const Eigen::Isometry3d& X_TC,
+                  const Observation& observation);
 
   std::vector<LateProposal> proposals_;
-  std::vector<uint8_t> is_marked_;
+  std::vector<uint8_t> is_marked_, is_explained_;
   std::vector<Eigen::Vector2d> corners_, hull_;
   ConvexRegion region_;
   PartFinder parts_;

@@ -14,9 +14,11 @@ namespace declutter {
 namespace {
 
 constexpr float kMinPatchCos = 0.99f;        // 8 degrees between normals of neighbours on a plane
+constexpr float kMaxSlant = 0.985f;          // of normals: 10 degrees off upright
 constexpr double kMaxResidual = 1.5;         // [sigma] rms of the points of a patch
 constexpr double kMaxFaceCos = 0.17;         // 10 degrees off the right angle between two faces
 constexpr double kUprightCos = 0.985;        // 10 degrees: a box that leans less is taken to stand
+constexpr double kNormalReach = 0.012;       // [m] from an edge to where normals are known
 constexpr double kMinExtent = 0.015;         // [m] that can be grasped
 constexpr double kMaxExtent = 0.40;          // [m]
 constexpr double kLow = 0.02, kHigh = 0.98;  // quantiles of points where a box ends
@@ -53,31 +55,36 @@ Solid WithUprightAxis(const Eigen::Matrix3d& axes, const Eigen::Vector3d& extent
 void LeaningBoxFinder::LabelPatches(const std::vector<uint8_t>& is_marked,
                                     const PixelWindow& window, const Observation& observation) {
   const PixelGrid& grid = observation.grid;
-  const auto columns = static_cast<size_t>(std::max(0, window.u_end - window.u_begin));
-  const auto rows = static_cast<size_t>(std::max(0, window.v_end - window.v_begin));
-  sets_.Reset(columns * rows);
-  points_.assign(columns * rows, Eigen::Vector3f::Zero());
-  normals_.resize(columns * rows);
+  const Eigen::Vector3f up = observation.support.normal.cast<float>();
+  sets_.Reset(0);
+  points_.clear();
+  normals_.clear();
+  above_.assign(static_cast<size_t>(grid.columns), kNone);
   const auto join_if_flat = [&](size_t a, size_t b) {
-    const Eigen::Vector3f& p = points_[a];
-    const Eigen::Vector3f& q = points_[b];
-    if (q.z() <= 0 || normals_[a].dot(normals_[b]) < kMinPatchCos) return;
-    const float step = std::abs(normals_[a].dot(p - q));
-    if (step < 3 * MeasurementSigma(p.z())) sets_.Join(a, b);
+    if (normals_[a].dot(normals_[b]) < kMinPatchCos) return;
+    const float step = std::abs(normals_[a].dot(points_[a] - points_[b]));
+    if (step < 3 * MeasurementSigma(points_[a].z())) sets_.Join(a, b);
   };
-  for (size_t j = 0; j < rows; ++j) {
-    const auto v = j + static_cast<size_t>(window.v_begin);
-    for (size_t i = 0; i < columns; ++i) {
-      const auto u = i + static_cast<size_t>(window.u_begin);
-      const float z = grid.z[v * grid.stride + u];
-      if (z <= 0 || is_marked[v * static_cast<size_t>(grid.columns) + u] == 0) continue;
-      const size_t a = j * columns + i;
-      normals_[a] =
-          observation.normals.At(grid.step * static_cast<int>(u), grid.step * static_cast<int>(v));
-      if (normals_[a].isZero()) continue;
-      points_[a] = z * Eigen::Vector3f(grid.ray_x[u], grid.ray_y[v], 1);
-      if (i > 0) join_if_flat(a, a - 1);
-      if (j > 0) join_if_flat(a, a - columns);
+  for (int v = window.v_begin; v < window.v_end; ++v) {
+    const auto row = static_cast<size_t>(v);
+    size_t left = kNone;
+    for (int u = window.u_begin; u < window.u_end; ++u) {
+      const auto column = static_cast<size_t>(u);
+      size_t& above = above_[column];
+      const float z = grid.z[row * grid.stride + column];
+      const bool is_seen = z > 0 && is_marked[row * static_cast<size_t>(grid.columns) + column];
+      const Eigen::Vector3f normal =
+          is_seen ? observation.normals.At(grid.step * u, grid.step * v) : Eigen::Vector3f::Zero();
+      if (normal.isZero() || std::abs(normal.dot(up)) > kMaxSlant) {
+        left = above = kNone;
+        continue;
+      }
+      const size_t here = sets_.Add();
+      points_.emplace_back(z * grid.ray_x[column], z * grid.ray_y[row], z);
+      normals_.push_back(normal);
+      if (left != kNone) join_if_flat(here, left);
+      if (above != kNone) join_if_flat(here, above);
+      left = above = here;
     }
   }
 }
@@ -86,18 +93,16 @@ void LeaningBoxFinder::LabelPatches(const std::vector<uint8_t>& is_marked,
 void LeaningBoxFinder::GatherPatches(size_t min_points) {
   patches_.Clear();
   num_points_.assign(points_.size(), 0);
-  patch_of_root_.assign(points_.size(), -1);
-  for (size_t i = 0; i < points_.size(); ++i) {
-    if (points_[i].z() > 0) ++num_points_[sets_.Root(i)];
-  }
+  patch_of_root_.assign(points_.size(), kNone);
+  for (size_t i = 0; i < points_.size(); ++i) ++num_points_[sets_.Root(i)];
   for (size_t i = 0; i < points_.size(); ++i) {
     const size_t root = sets_.Root(i);
-    if (points_[i].z() <= 0 || static_cast<size_t>(num_points_[root]) < min_points) continue;
-    if (patch_of_root_[root] < 0) {
-      patch_of_root_[root] = static_cast<int32_t>(patches_.size());
+    if (num_points_[root] < min_points) continue;
+    if (patch_of_root_[root] == kNone) {
+      patch_of_root_[root] = patches_.size();
       patches_.Add().points.clear();
     }
-    patches_[static_cast<size_t>(patch_of_root_[root])].points.push_back(points_[i].cast<double>());
+    patches_[patch_of_root_[root]].points.push_back(points_[i].cast<double>());
   }
   for (Patch& patch : patches_) {
     const auto num = static_cast<double>(patch.points.size());
@@ -128,7 +133,8 @@ std::optional<Solid> LeaningBoxFinder::BoxOver(const Patch& a, const Patch& b,
   for (int i = 0; i < 3; ++i) {
     const Range of_a = RangeAlong(axes.col(i), a.mean, a.points, &coordinates_);
     const Range of_b = RangeAlong(axes.col(i), a.mean, b.points, &coordinates_);
-    ends[static_cast<size_t>(i)] = {std::min(of_a.low, of_b.low), std::max(of_a.high, of_b.high)};
+    ends[static_cast<size_t>(i)] = {std::min(of_a.low, of_b.low) - kNormalReach,
+                                    std::max(of_a.high, of_b.high) + kNormalReach};
   }
   // Each face ends the other one.
   ends[0].high = 0;

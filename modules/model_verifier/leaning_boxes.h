@@ -43,11 +43,15 @@ class LeaningBoxFinder {
   void GatherPatches(size_t min_points);
   std::optional<Solid> BoxOver(const Patch& a, const Patch& b, const Eigen::Vector3d& up);
 
-  DisjointSets sets_;                    // of the pixels of the window
-  std::vector<Eigen::Vector3f> points_;  // [m] in C of each pixel, z = 0: none that counts
-  std::vector<Eigen::Vector3f> normals_;
-  std::vector<int32_t> num_points_;  // of each set, at its root
-  std::vector<int32_t> patch_of_root_;
+  static constexpr size_t kNone = static_cast<size_t>(-1);
+
+  // Of the pixels that count, in row-major order.
+  DisjointSets sets_;
+  std::vector<Eigen::Vector3f> points_, normals_;  // in C
+  std::vector<size_t> num_points_;                 // of each set, at its root
+  std::vector<size_t> patch_of_root_;
+
+  std::vector<size_t> above_;  // the pixel of the row above, of each column, or kNone
   ReusedList<Patch> patches_;
   std::vector<double> coordinates_;
   std::vector<LeaningBox> boxes_;

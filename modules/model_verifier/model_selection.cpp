@@ -27,6 +27,7 @@ void ModelSelection::Run(const std::vector<Hypothesis>& hypotheses, const Observ
   num_explaining_.assign(static_cast<size_t>(observation.grid.num_pixels()), 0);
   selected_.clear();
   AddCandidates(hypotheses, input);
+  ProposeLeaning(hypotheses, input);
   SelectBest(input);
   ProposeAboveBlockers(input);
   ProposeForUnexplained(input);

@@ -65,6 +65,7 @@ class ModelSelection {
   void AddCandidates(const std::vector<Hypothesis>& hypotheses, const Input& input);
   void SelectBest(const Input& input);
   // model_selection_late.cpp
+  void ProposeLeaning(const std::vector<Hypothesis>& hypotheses, const Input& input);
   void ProposeAboveBlockers(const Input& input);
   void ProposeUpperParts(const Input& input);
   bool IsOneColumn(const Candidate& lower, const Solid& upper, const Input& input);

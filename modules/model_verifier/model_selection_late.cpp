@@ -12,6 +12,25 @@ constexpr double kMinHeight = 0.015;  // [m] that can be grasped
 
 }  // namespace
 
+// Adds boxes that lean. Nothing voted for them, so that they must explain most of what they were
+// laid over, as well as noise allows.
+void ModelSelection::ProposeLeaning(const std::vector<Hypothesis>& hypotheses, const Input& input) {
+  constexpr double kMinShare = 0.7;  // of the points it was laid over that a solid explains
+  constexpr double kMinFit = 0.8;    // of a pixel: noise leaves 8 / 9
+  selected_solids_.clear();
+  for (const Hypothesis& hypothesis : hypotheses) selected_solids_.push_back(hypothesis.solid);
+  for (const LateProposal& proposal :
+       late_proposer_.ProposeLeaning(selected_solids_, input.observation)) {
+    const auto added = AddRefined(proposal.hypothesis, kMinShare * proposal.num_px, input);
+    if (!added) continue;
+    const RayEvidence& evidence = candidates_[*added].evidence;
+    if (Gain(&candidates_[*added]) < kMinShare * proposal.num_px ||
+        evidence.Fit() < kMinFit * evidence.num_explained()) {
+      --num_candidates_;
+    }
+  }
+}
+
 // Tries candidates that reach down into selected ones as what stands on those: a side that goes on
 // below may have been taken for theirs.
 void ModelSelection::ProposeAboveBlockers(const Input& input) {
