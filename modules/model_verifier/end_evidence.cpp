@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/model_verifier/support_settling.h"
+
 namespace declutter {
 namespace {
 
@@ -91,6 +93,7 @@ SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
   }
   const auto num_points = PointsOnFaces(solid, evidence, points_O);
   const Eigen::Vector3d camera_O = solid.X_CO.inverse().translation();
+  const bool is_standing = IsUpright(solid, observation.support);
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
       const auto a = static_cast<size_t>(axis);
@@ -98,11 +101,12 @@ SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
       const int sign = side == 0 ? -1 : 1;
       EndEvidence& end = ends[a][s];
       const bool was_assumed = given[a] == Evidence::kAssumed;
-      if (axis == 2 && side == 0) {
+      if (is_standing && axis == 2 && side == 0) {
         end = was_assumed ? EndEvidence::kAssumed : EndEvidence::kSupport;
       } else if (num_points[a][s] >= kMinFacePoints && FacesCamera(solid, camera_O, axis, sign)) {
         end = EndEvidence::kFace;
-      } else if (axis == 2 || (!was_assumed && IsEdgeSeen(solid, observation.image, axis, sign))) {
+      } else if ((is_standing && axis == 2) ||
+                 (!was_assumed && IsEdgeSeen(solid, observation.image, axis, sign))) {
         end = EndEvidence::kEdge;
       } else {
         const Solid longer = Longer(solid, axis, sign, kFreeSpaceReach);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "modules/geometry/plane.h"
@@ -93,6 +94,10 @@ TEST(ModelVerifier, FindsABoxThatLeansThoughNothingVotedForIt) {
     const Eigen::Matrix3d turn = (found.X_CO.linear().transpose() * truth.X_CO.linear()).cwiseAbs();
     EXPECT_GT(turn.colwise().maxCoeff().minCoeff(), 0.998) << yaw;
     EXPECT_GT(found.X_CO.linear().determinant(), 0);
+    // Nobody saw how far down it reaches.
+    const double height_sd = std::sqrt(list.objects[0].covariance(5, 5));
+    EXPECT_LT(std::abs(found.size.z() - truth.size.z()), 2 * height_sd);
+    EXPECT_GT(height_sd, 0.003);
   }
 }
 
