@@ -6,6 +6,7 @@
 
 #include "modules/model_verifier/face_ends.h"
 #include "modules/model_verifier/fit_sums.h"
+#include "modules/model_verifier/support_settling.h"
 #include "modules/model_verifier/surface_fit.h"
 
 namespace declutter {
@@ -19,8 +20,8 @@ struct BoxFace {
   int sign;
 };
 
-// All that can be seen: never the lower end.
-constexpr std::array<BoxFace, 5> kFaces = {{{0, 1}, {0, -1}, {1, 1}, {1, -1}, {2, 1}}};
+// The lower end last: of what stands it is never seen.
+constexpr std::array<BoxFace, 6> kFaces = {{{0, 1}, {0, -1}, {1, 1}, {1, -1}, {2, 1}, {2, -1}}};
 
 FaceSums SumsOf(const BoxFace& face, const FitPoints& points, const Eigen::Vector3d& half,
                 double edge_margin) {
@@ -66,11 +67,13 @@ Solid RefineBox(Solid solid, const Observation& observation, FitPoints* points) 
   Eigen::Vector3d high = 0.5 * solid.size;
   Eigen::Vector3d low = -high;
   std::array<FaceSums, kFaces.size()> sums;
-  for (size_t i = 0; i < kFaces.size(); ++i) {
+  const size_t num_faces =
+      IsUpright(solid, observation.support) ? kFaces.size() - 1 : kFaces.size();
+  for (size_t i = 0; i < num_faces; ++i) {
     sums[i] = SumsOf(kFaces[i], *points, 0.5 * solid.size, kFitEdgeMargin);
   }
   const double yaw = YawOf(sums);
-  for (size_t i = 0; i < kFaces.size(); ++i) {
+  for (size_t i = 0; i < num_faces; ++i) {
     const BoxFace& face = kFaces[i];
     // What is blurred tells where a small face is, but not how it is turned.
     if (!IsSeen(sums[i])) sums[i] = SumsOf(face, *points, 0.5 * solid.size, -kFitEdgeMargin);
@@ -82,7 +85,7 @@ Solid RefineBox(Solid solid, const Observation& observation, FitPoints* points) 
 
   high = 0.5 * solid.size;
   low = -high;
-  for (size_t i = 0; i < kFaces.size(); ++i) {
+  for (size_t i = 0; i < num_faces; ++i) {
     if (IsSeen(sums[i])) continue;
     const BoxFace& face = kFaces[i];
     if (const auto shift = ShiftOfEnd(solid, face.axis, face.sign, observation)) {
