@@ -10,7 +10,8 @@
 namespace declutter {
 namespace {
 
-// Standard deviations of 1 / z by which feet, and upper parts, are off the plane.
+// Standard deviations of 1 / z by which feet, and upper parts, are off the plane: a far table has
+// waves of four somewhere.
 constexpr float kFootSigmas = 1.5f;
 constexpr float kObjectSigmas = 5.0f;
 

@@ -67,6 +67,28 @@ TEST(PlaneFilterTest, FindsTheTableUnderClutterAndKeepsWhatStandsOnIt) {
   EXPECT_LT(PartKept(tabletop, scene, kTableLabel, kTableLabel), 0.01);
 }
 
+// An empty table far away, part of which is off by so many standard deviations of 1 / z.
+DepthImage WavyTable(float sigmas) {
+  DepthImage image = RenderText(
+                         "camera { height_m: 1 pitch_rad: 0.9 } noise { model: \"none\" } "
+                         "table { size_x_m: 2 size_y_m: 2 y_m: 0.9 }")
+                         .depth;
+  const double sigma = PlaneFilterConfig().inverse_depth_sigma();
+  for (int v = 200; v < 260; ++v) {
+    for (int u = 280; u < 360; ++u) {
+      uint16_t& count = image.counts[static_cast<size_t>(v * image.camera.width + u)];
+      const double z = 1 / (1 / (count * image.depth_scale_m) + sigmas * sigma);
+      count = static_cast<uint16_t>(std::lround(z / image.depth_scale_m));
+    }
+  }
+  return image;
+}
+
+TEST(PlaneFilterTest, TakesNoWaveOfAFarTableForAnObject) {
+  EXPECT_EQ(Filter(WavyTable(4.5f)).num_object_points, 0);
+  EXPECT_GT(Filter(WavyTable(7)).num_object_points, 3000);
+}
+
 TEST(PlaneFilterTest, KeepsTheCountsOfObjectPixels) {
   const RenderedScene scene = RenderText(kBoxAndCan);
   const Tabletop tabletop = Filter(scene.depth);
