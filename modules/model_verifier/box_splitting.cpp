@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
+#include "modules/model_verifier/extents.h"
+
 namespace declutter {
 namespace {
 
-constexpr int kNumCuts = 12;          // places along each side that a box may be cut at
-constexpr size_t kMinPoints = 20;     // of a part
-constexpr double kMinExtent = 0.015;  // [m] of a part: what can be grasped
-constexpr double kMaxArea = 0.9;      // of the box that both parts may have together
-constexpr double kOutermost = 0.01;   // share of the points that may lie beyond an end
+constexpr int kNumCuts = 12;         // places along each side that a box may be cut at
+constexpr size_t kMinPoints = 20;    // of a part
+constexpr double kMaxArea = 0.9;     // of the box that both parts may have together
+constexpr double kOutermost = 0.01;  // share of the points that may lie beyond an end
 
 // A rectangle seen from above, in O.
 struct Footprint {

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/model_verifier/extents.h"
+#include "modules/model_verifier/surface_fit.h"
+
 namespace declutter {
-namespace {
-
-constexpr double kEdgeBlur = 0.010;  // [m] by which what is measured around an edge is off
-
-}  // namespace
 
 bool HaveOneCrossSection(const Solid& a, const Solid& b) {
   const auto range = [](const Solid& solid) { return std::minmax(solid.size.x(), solid.size.y()); };
@@ -36,14 +34,13 @@ bool AreFlush(const Solid& a, const Solid& b) {
 }
 
 bool IsTopSeen(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O, int pixel_weight) {
-  constexpr int kMinPx = 60;  // as many as place a face
   const Eigen::Vector3d half = 0.5 * solid.size;
   const auto num = std::count_if(points_O.begin(), points_O.end(), [&](const Eigen::Vector3d& p) {
     const double inside = solid.shape == Shape::kBox ? (half - p.cwiseAbs()).head<2>().minCoeff()
                                                      : half.x() - p.head<2>().norm();
     return inside > kEdgeBlur && p.z() > half.z() - kEdgeBlur;
   });
-  return pixel_weight * num >= kMinPx;
+  return pixel_weight * num >= kMinFitPoints;
 }
 
 }  // namespace declutter

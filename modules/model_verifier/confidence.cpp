@@ -2,28 +2,26 @@
 
 #include <algorithm>
 
+#include "modules/model_verifier/extents.h"
+
 namespace declutter {
 namespace {
 
 constexpr double kUnexplainedReach = 0.020;  // [m] from a solid to points that it should explain
 constexpr double kReachAbove = 0.050;        // [m] above a top that is not seen, the same
-constexpr double kMinExtent = 0.010;         // [m] of a solid
+constexpr double kMinThickness = 0.010;      // [m] of a solid
 constexpr double kUnknownWeight = 0.25;  // of a pixel without depth: dark or shiny, or no surface
 constexpr double kAssumedDepthFactor = 0.75;  // of the confidence where only one side face was seen
 
 }  // namespace
 
 int NumUnexplained(const Solid& solid, bool is_top_seen, const Observation& unlabelled) {
-  Solid with_above = solid;
-  if (!is_top_seen) {
-    with_above.size.z() += kReachAbove;
-    with_above.X_CO = with_above.X_CO * Eigen::Translation3d(0, 0, 0.5 * kReachAbove);
-  }
-  return NumNear(with_above, kUnexplainedReach, unlabelled);
+  return NumNear(is_top_seen ? solid : Longer(solid, 2, 1, kReachAbove), kUnexplainedReach,
+                 unlabelled);
 }
 
 double Confidence(const ObjectModel& object, const RayEvidence& evidence, int num_unexplained) {
-  if (object.solid.size.minCoeff() < kMinExtent) return 0;
+  if (object.solid.size.minCoeff() < kMinThickness) return 0;
   double fit = evidence.Fit();
   if (object.evidence[1] == Evidence::kAssumed) fit *= kAssumedDepthFactor;
   const auto num_explained = static_cast<double>(evidence.explained.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/support_settling.h"
 
 namespace declutter {
@@ -71,13 +72,6 @@ std::array<std::array<int, 2>, 3> PointsOnFaces(const Solid& solid, const RayEvi
     num[static_cast<size_t>(axis)][p_O[axis] > 0] += evidence.pixel_weight;
   }
   return num;
-}
-
-// The solid with one of its ends moved outward.
-Solid Longer(Solid solid, int axis, int sign, double growth) {
-  solid.X_CO.translation() += 0.5 * sign * growth * solid.X_CO.linear().col(axis);
-  solid.size[axis] += growth;
-  return solid;
 }
 
 }  // namespace

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "modules/model_verifier/extents.h"
+
 namespace declutter {
 namespace {
-
-constexpr double kEdgeBlur = 0.010;  // [m] by which what is measured around an edge is off
-constexpr double kMaxExtent = 0.40;  // [m]
 
 // From the lowest to the highest coordinate along an axis.
 struct Range {
@@ -39,7 +38,7 @@ std::optional<Range> RangeAlong(int axis, const std::vector<Eigen::Vector3d>& po
 
 }  // namespace
 
-std::optional<Solid> ProlongedOver(const std::vector<Eigen::Vector3d>& points_O, Solid box) {
+std::optional<Solid> ProlongedOver(const std::vector<Eigen::Vector3d>& points_O, const Solid& box) {
   const Eigen::Vector3d half = 0.5 * box.size;
   for (int axis = 0; axis < 2; ++axis) {
     const auto range = RangeAlong(axis, points_O, half);
@@ -49,9 +48,7 @@ std::optional<Solid> ProlongedOver(const std::vector<Eigen::Vector3d>& points_O,
     if ((above > kEdgeBlur) == (below > kEdgeBlur)) continue;
     const double growth = std::max(above, below);
     if (box.size[axis] + growth > kMaxExtent) continue;
-    box.size[axis] += growth;
-    box.X_CO.translation() += (above > below ? 0.5 : -0.5) * growth * box.X_CO.linear().col(axis);
-    return box;
+    return Longer(box, axis, above > below ? 1 : -1, growth);
   }
   return std::nullopt;
 }

@@ -9,6 +9,7 @@
 
 #include "modules/geometry/quantile.h"
 #include "modules/geometry/sensor_noise.h"
+#include "modules/model_verifier/extents.h"
 
 namespace declutter {
 namespace {
@@ -19,8 +20,6 @@ constexpr double kMaxResidual = 1.5;         // [sigma] rms of the points of a p
 constexpr double kMaxFaceCos = 0.17;         // 10 degrees off the right angle between two faces
 constexpr double kUprightCos = 0.985;        // 10 degrees: a box that leans less is taken to stand
 constexpr double kNormalReach = 0.012;       // [m] from an edge to where normals are known
-constexpr double kMinExtent = 0.015;         // [m] that can be grasped
-constexpr double kMaxExtent = 0.40;          // [m]
 constexpr double kLow = 0.02, kHigh = 0.98;  // quantiles of points where a box ends
 
 struct Range {

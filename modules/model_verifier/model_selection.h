@@ -66,6 +66,7 @@ class ModelSelection {
   void SelectBest(const Input& input);
   // model_selection_late.cpp
   void ProposeLeaning(const std::vector<Hypothesis>& hypotheses, const Input& input);
+  void AddProposal(const LateProposal& proposal, double min_share_before, const Input& input);
   void ProposeAboveBlockers(const Input& input);
   void ProposeUpperParts(const Input& input);
   bool IsOneColumn(const Candidate& lower, const Solid& upper, const Input& input);

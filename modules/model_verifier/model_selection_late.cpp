@@ -2,32 +2,38 @@
 #include <cmath>
 
 #include "modules/model_verifier/column.h"
+#include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/support_settling.h"
 
 namespace declutter {
-namespace {
 
-constexpr double kMinHeight = 0.015;  // [m] that can be grasped
-
-}  // namespace
-
-// Adds boxes that lean. Nothing voted for them, so that they must explain most of what they were
-// laid over, as well as noise allows.
+// Adds boxes that lean.
 void ModelSelection::ProposeLeaning(const std::vector<Hypothesis>& hypotheses, const Input& input) {
-  constexpr double kMinShare = 0.7;  // of the points it was laid over that a solid explains
-  constexpr double kMinFit = 0.8;    // of a pixel: noise leaves 8 / 9
+  constexpr double kMinShareBefore = 0.7;  // of the points it was laid over, before it is refined
   selected_solids_.clear();
   for (const Hypothesis& hypothesis : hypotheses) selected_solids_.push_back(hypothesis.solid);
   for (const LateProposal& proposal :
        late_proposer_.ProposeLeaning(selected_solids_, input.observation)) {
-    const auto added = AddRefined(proposal.hypothesis, kMinShare * proposal.num_px, input);
-    if (!added) continue;
-    const RayEvidence& evidence = candidates_[*added].evidence;
-    if (Gain(&candidates_[*added]) < kMinShare * proposal.num_px ||
-        evidence.Fit() < kMinFit * evidence.num_explained()) {
-      --num_candidates_;
-    }
+    AddProposal(proposal, kMinShareBefore, input);
+  }
+}
+
+// Adds what nothing voted for, so that it must explain most of what it was laid over, as well as
+// noise allows, and little of what others do.
+void ModelSelection::AddProposal(const LateProposal& proposal, double min_share_before,
+                                 const Input& input) {
+  constexpr double kMinShare = 0.7;     // of the points it was laid over that a solid explains
+  constexpr double kMinFit = 0.8;       // of a pixel: noise leaves 8 / 9
+  constexpr double kMinUnshared = 0.8;  // of what speaks for it, from pixels of its own
+  const auto added = AddRefined(proposal.hypothesis, min_share_before * proposal.num_px, input);
+  if (!added) return;
+  Candidate& candidate = candidates_[*added];
+  const RayEvidence& evidence = candidate.evidence;
+  if (Gain(&candidate) < kMinShare * proposal.num_px ||
+      evidence.Fit() < kMinFit * evidence.num_explained() ||
+      UnsharedFit(evidence) < kMinUnshared * evidence.Fit()) {
+    --num_candidates_;
   }
 }
 
@@ -49,7 +55,7 @@ void ModelSelection::ProposeAboveBlockers(const Input& input) {
     for (const size_t blocker : BlockersOf(i)) {
       const Solid& solid = candidates_[blocker].hypothesis.solid;
       const double top_below = TopOf(solid, support);
-      if (IsUpright(solid, support) && top_below < top - kMinHeight) {
+      if (IsUpright(solid, support) && top_below < top - kMinExtent) {
         floor = std::max(floor, top_below);
       } else {
         rivals_gain += candidates_[blocker].selection_gain;
@@ -80,7 +86,7 @@ void ModelSelection::ProposeUpperParts(const Input& input) {
         continue;
       }
       const double floor = TopOf(candidate.hypothesis.solid, support);
-      if (floor > top - kMinHeight || floor < top - solid.height() + kMinHeight ||
+      if (floor > top - kMinExtent || floor < top - solid.height() + kMinExtent ||
           Gain(&candidate) <= 0) {
         continue;
       }
@@ -91,7 +97,7 @@ void ModelSelection::ProposeUpperParts(const Input& input) {
         AddRefined(Hypothesis(candidates_[*best].hypothesis), config_.min_explained_px(), input);
     if (!lower) continue;
     const double floor = TopOf(candidates_[*lower].hypothesis.solid, support);
-    if (floor > top - kMinHeight || IsOneColumn(candidates_[*lower], solid, input)) {
+    if (floor > top - kMinExtent || IsOneColumn(candidates_[*lower], solid, input)) {
       --num_candidates_;
     } else {
       AddUpperPart(upper, floor, input);
@@ -119,13 +125,9 @@ void ModelSelection::AddUpperPart(size_t index, double floor, const Input& input
   AddRefined(upper, config_.min_explained_px(), input);
 }
 
-// Tries solids over what no selected one explains. Nothing voted for them, so that they must
-// explain most of what they were laid over, as well as noise allows, and little of what others do.
+// Tries solids over what no selected one explains.
 void ModelSelection::ProposeForUnexplained(const Input& input) {
-  constexpr double kMinShare = 0.7;        // of the points it was laid over that a solid explains
-  constexpr double kMinShareBefore = 0.5;  // the same before it is refined
-  constexpr double kMinFit = 0.8;          // of a pixel: noise leaves 8 / 9
-  constexpr double kMinUnshared = 0.8;     // of what speaks for it, from pixels of its own
+  constexpr double kMinShareBefore = 0.5;  // of the points it was laid over, before it is refined
   selected_solids_.clear();
   is_explained_ = num_explaining_;
   for (const size_t i : selected_) {
@@ -142,15 +144,7 @@ void ModelSelection::ProposeForUnexplained(const Input& input) {
   }
   for (const LateProposal& proposal : late_proposer_.ProposeForUnexplained(
            selected_solids_, is_explained_, config_.min_explained_px(), input.observation)) {
-    const auto added = AddRefined(proposal.hypothesis, kMinShareBefore * proposal.num_px, input);
-    if (!added) continue;
-    Candidate& candidate = candidates_[*added];
-    const RayEvidence& evidence = candidate.evidence;
-    if (Gain(&candidate) < kMinShare * proposal.num_px ||
-        evidence.Fit() < kMinFit * evidence.num_explained() ||
-        UnsharedFit(evidence) < kMinUnshared * evidence.Fit()) {
-      --num_candidates_;
-    }
+    AddProposal(proposal, kMinShareBefore, input);
   }
   SelectBest(input);
 }

@@ -8,14 +8,13 @@
 
 #include "modules/geometry/edge_direction.h"
 #include "modules/geometry/quantile.h"
+#include "modules/model_verifier/extents.h"
 
 namespace declutter {
 namespace {
 
-constexpr size_t kMinTops = 12;       // points that tell the height of a top
-constexpr size_t kMinSides = 6;       // points that tell how far down a side goes
-constexpr float kMinExtent = 0.015f;  // [m] that can be grasped
-constexpr float kMaxExtent = 0.40f;
+constexpr size_t kMinTops = 12;  // points that tell the height of a top
+constexpr size_t kMinSides = 6;  // points that tell how far down a side goes
 constexpr float kMinRadius = 0.015f;
 constexpr float kMaxRadius = 0.15f;
 constexpr float kTopOnlyDepth = 0.005f;  // [m] of side below a top of which none is seen
@@ -89,7 +88,7 @@ std::optional<Hypothesis> BoxOver(const SurfacePart& part, const Range& heights,
     ends[i] = Quantiles(along, 0.01f, 0.99f);
   }
   for (size_t i = 0; i < 2; ++i) {
-    if (ends[i].high - ends[i].low > kMinExtent) continue;
+    if (ends[i].high - ends[i].low > static_cast<float>(kMinExtent)) continue;
     // Only one side was seen: the body is behind it, as the camera is above the origin.
     const float depth = std::clamp(0.5f * (ends[1 - i].high - ends[1 - i].low), 0.03f, 0.10f);
     (ends[i].low > 0 ? ends[i].high : ends[i].low) =
@@ -97,7 +96,9 @@ std::optional<Hypothesis> BoxOver(const SurfacePart& part, const Range& heights,
     is_assumed[i] = true;
   }
   const Eigen::Vector2f size(ends[0].high - ends[0].low, ends[1].high - ends[1].low);
-  if (size.minCoeff() < kMinExtent || size.maxCoeff() > kMaxExtent) return std::nullopt;
+  if (size.minCoeff() < static_cast<float>(kMinExtent) ||
+      size.maxCoeff() > static_cast<float>(kMaxExtent))
+    return std::nullopt;
   const Eigen::Vector2f centre =
       0.5f * (ends[0].low + ends[0].high) * axes[0] + 0.5f * (ends[1].low + ends[1].high) * axes[1];
   Hypothesis box = Standing(Shape::kBox, heights, centre, axes[0], size, X_CT);
