@@ -69,6 +69,12 @@ bool ModelSelection::IsPlausible(const RayEvidence& evidence) const {
 // than min_px before it is refined.
 std::optional<size_t> ModelSelection::AddRefined(const Hypothesis& hypothesis, double min_px,
                                                  const Input& input) {
+  return AddRefined(hypothesis, min_px, input.observation, input);
+}
+
+// The same, refined on another observation.
+std::optional<size_t> ModelSelection::AddRefined(const Hypothesis& hypothesis, double min_px,
+                                                 const Observation& fitted, const Input& input) {
   if (num_candidates_ == max_candidates_) return std::nullopt;
   const size_t added = num_candidates_;
   Candidate& candidate = candidates_[added];
@@ -76,8 +82,8 @@ std::optional<size_t> ModelSelection::AddRefined(const Hypothesis& hypothesis, d
   if (candidate.evidence.num_explained() < min_px) return std::nullopt;
   candidate.Begin(hypothesis);
   if (config_.refine()) {
-    RefineOrClimb(input.observation, input.observation, &candidate.hypothesis.solid,
-                  &candidate.evidence, input.buffers);
+    RefineOrClimb(fitted, input.observation, &candidate.hypothesis.solid, &candidate.evidence,
+                  input.buffers);
   }
   if (!IsPlausible(candidate.evidence)) return std::nullopt;
   candidate.is_refined = true;

@@ -79,9 +79,14 @@ class ModelSelection {
   const std::vector<size_t>& Only(std::initializer_list<size_t> indices);
   bool Replace(const std::vector<size_t>& old, std::optional<size_t> first, const Input& input,
                double share_of_old = 1);
+  void PutBack(const std::vector<size_t>& old);
   // model_selection_changes.cpp
   bool Split(size_t old, const Input& input);
   bool CutLower(size_t old, const Input& input);
+  bool Divide(size_t old, const Input& input);
+  void FindPartsInside(size_t old, const Input& input);
+  void ProposeForRest(size_t old, size_t part, const Input& input);
+  int NumSeenThrough(const std::vector<size_t>& indices, const Input& input);
   bool Reshape(size_t old, const Input& input);
   bool Unite(size_t old, const Input& input);
   std::optional<Solid> Through(const Solid& solid, const Candidate& candidate, const Input& input);
@@ -91,6 +96,8 @@ class ModelSelection {
                       const Input& input);
   // model_selection.cpp
   std::optional<size_t> AddRefined(const Hypothesis& hypothesis, double min_px, const Input& input);
+  std::optional<size_t> AddRefined(const Hypothesis& hypothesis, double min_px,
+                                   const Observation& fitted, const Input& input);
   std::optional<size_t> Best(const Input& input);
   bool RefineRivals(const Candidate& best, const Input& input);
   bool IsPlausible(const RayEvidence& evidence) const;
@@ -119,6 +126,8 @@ class ModelSelection {
   std::vector<size_t> only_;            // Only
   std::vector<size_t> order_;           // Exchange
   std::vector<size_t> instead_;         // Replace
+  std::vector<size_t> inside_;          // Divide
+  PixelGrid unclaimed_;                 // ProposeForRest
   std::vector<uint8_t> is_own_;         // Reshape
   BoxSplitter box_splitter_;            // Split
   std::vector<Solid> selected_solids_;  // ProposeForUnexplained

@@ -3,6 +3,7 @@
 
 #include "modules/geometry/plane.h"
 #include "modules/geometry/sensor_noise.h"
+#include "modules/model_verifier/free_space.h"
 #include "modules/model_verifier/hidden_middle.h"
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/support_settling.h"
@@ -152,9 +153,11 @@ bool ModelSelection::Unite(size_t old, const Input& input) {
     const Candidate& whole = candidates_[*added];
     const double max_violating = larger.evidence.num_violating + evidence.num_violating +
                                  kMaxNewViolating * evidence.num_explained();
+    const int max_seen_through = kMaxSeenThrough + NumSeenThrough(Only({old, part}), input);
     const auto is_part = [&](size_t i) { return i == old || i == part; };
     const auto& blockers = BlockersOf(*added);
     if (whole.evidence.num_violating <= max_violating &&
+        NumSeenThrough(Only({*added}), input) < max_seen_through &&
         std::all_of(blockers.begin(), blockers.end(), is_part) &&
         Replace(Only({old, part}), added, input, kMinShare * (1 - whole.misfit_share))) {
       candidates_[old].is_out = candidates_[part].is_out = true;

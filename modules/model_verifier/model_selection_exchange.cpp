@@ -19,8 +19,9 @@ bool ModelSelection::Exchange(const Input& input) {
   }
   order_ = selected_;
   for (const size_t old : order_) {
-    has_changed |= candidates_[old].is_selected && (Split(old, input) || CutLower(old, input) ||
-                                                    Reshape(old, input) || Unite(old, input));
+    has_changed |= candidates_[old].is_selected &&
+                   (Split(old, input) || Divide(old, input) || CutLower(old, input) ||
+                    Reshape(old, input) || Unite(old, input));
   }
   return has_changed;
 }
@@ -73,9 +74,14 @@ bool ModelSelection::Replace(const std::vector<size_t>& old, std::optional<size_
   }
   for (const size_t i : old) candidates_[i].is_out = false;
   if (new_gain > kMinImprovement * share_of_old * old_gain) return true;
+  PutBack(old);
+  return false;
+}
+
+// Takes the last replacement back.
+void ModelSelection::PutBack(const std::vector<size_t>& old) {
   for (const size_t i : instead_) Release(i);
   for (const size_t i : old) Select(i);
-  return false;
 }
 
 }  // namespace declutter

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "modules/geometry/depth_image.h"
@@ -26,6 +27,10 @@ struct PixelGrid {
   void Set(const DepthImage& image, int step);
 
   int num_pixels() const { return columns * rows; }
+  // Of pixel row * columns + column in z.
+  size_t Index(int32_t pixel) const {
+    return static_cast<size_t>(pixel / columns) * stride + static_cast<size_t>(pixel % columns);
+  }
   // [px] of the image that each of these pixels stands for.
   int pixel_weight() const { return step * step; }
 };
