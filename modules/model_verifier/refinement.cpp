@@ -7,6 +7,16 @@
 #include "modules/model_verifier/systematic_misfit.h"
 
 namespace declutter {
+namespace {
+
+// [px] that speak for a solid less those that speak against it, as its side may be another shape.
+double Support(const Solid& solid, const RayEvidence& evidence, const Observation& judging,
+               FitBuffers* buffers) {
+  return evidence.Balance() -
+         MisfitShareOf(solid, evidence, judging, &buffers->explained_O) * evidence.Fit();
+}
+
+}  // namespace
 
 Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buffer) {
   return solid.shape == Shape::kBox ? RefineBox(solid, observation, buffer)
@@ -19,7 +29,12 @@ bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Soli
   const Solid refined = Refine(*solid, fitted, &buffers->points);
   if (refined.size == solid->size && refined.X_CO.matrix() == solid->X_CO.matrix()) return false;
   CastRays(refined, judging, &buffers->evidence);
-  if (buffers->evidence.Balance() < evidence->Balance() - kMaxLoss * evidence->num_explained()) {
+  const double max_loss = kMaxLoss * evidence->num_explained();
+  if (buffers->evidence.Balance() < evidence->Balance() - max_loss) return false;
+  // It may have moved onto its neighbours' points.
+  const double support = Support(refined, buffers->evidence, judging, buffers);
+  if (support < buffers->evidence.Balance() &&
+      support < Support(*solid, *evidence, judging, buffers) - max_loss) {
     return false;
   }
   *solid = refined;
@@ -33,13 +48,10 @@ bool RefineOrClimb(const Observation& fitted, const Observation& judging, Solid*
   if (is_fitted || solid->shape != Shape::kCylinder) return is_fitted;
   const Solid before = *solid;
   ClimbCylinder(judging, solid, evidence, &buffers->evidence);
-  const double misfit = MisfitShareOf(*solid, *evidence, judging, &buffers->explained_O);
-  if (misfit == 0) return false;
-  // It may have climbed onto its neighbours' points.
+  const double support = Support(*solid, *evidence, judging, buffers);
+  if (support == evidence->Balance()) return false;
   CastRays(before, judging, &buffers->evidence);
-  const double misfit_before =
-      MisfitShareOf(before, buffers->evidence, judging, &buffers->explained_O);
-  if ((1 - misfit) * evidence->Balance() < (1 - misfit_before) * buffers->evidence.Balance()) {
+  if (support < Support(before, buffers->evidence, judging, buffers)) {
     *solid = before;
     std::swap(*evidence, buffers->evidence);
   }
