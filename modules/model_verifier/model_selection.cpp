@@ -175,8 +175,8 @@ double ModelSelection::CountGain(const Candidate& candidate) const {
   const RayEvidence& evidence = candidate.evidence;
   const double gain = UnsharedFit(evidence);
   double penalty =
-      config_.violation_weight() *
-          (evidence.num_violating + evidence.num_contradicting + evidence.num_overhanging) +
+      config_.violation_weight() * (evidence.num_violating + evidence.num_contradicting +
+                                    NumOverhangingAlone(evidence, num_explaining_)) +
       candidate.misfit_share * gain;
   for (Evidence extent : candidate.hypothesis.evidence) {
     if (extent == Evidence::kAssumed) penalty += config_.assumption_penalty() * gain;

@@ -57,7 +57,7 @@ bool IsSupported(const ObjectModel& object, const RayEvidence& evidence,
                  const std::vector<uint8_t>& num_explaining, double min_px) {
   constexpr double kMinOwnShare = 0.4;  // of what speaks for it
   const double balance = FitAlone(evidence, num_explaining, 1) - evidence.num_violating -
-                         evidence.num_contradicting - evidence.num_overhanging;
+                         evidence.num_contradicting - NumOverhangingAlone(evidence, num_explaining);
   const bool is_seen = std::any_of(object.evidence.begin(), object.evidence.end(),
                                    [](Evidence extent) { return extent != Evidence::kAssumed; });
   return balance >= std::max(min_px, kMinOwnShare * evidence.Fit()) &&

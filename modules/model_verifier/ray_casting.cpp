@@ -54,7 +54,8 @@ void CastRays(const Solid& solid, const Observation& observation, RayEvidence* r
   const auto room = static_cast<size_t>(window.u_end - window.u_begin) *
                         static_cast<size_t>(window.v_end - window.v_begin) +
                     kRayPadding;
-  for (auto* list : {&evidence.explained, &evidence.fits, &evidence.hollow}) {
+  for (auto* list :
+       {&evidence.explained, &evidence.fits, &evidence.hollow, &evidence.overhanging}) {
     // Once and for all: evidence changes places between solids of any size.
     if (list->capacity() < room) list->reserve(2 * room);
     list->resize(room);
@@ -63,10 +64,12 @@ void CastRays(const Solid& solid, const Observation& observation, RayEvidence* r
   counts.explained = evidence.explained.data();
   counts.fits = evidence.fits.data();
   counts.hollow = evidence.hollow.data();
+  counts.overhanging = evidence.overhanging.data();
   CastWindow(AsRaySolid(solid, observation.support), window, kLimits, &counts);
   evidence.explained.resize(static_cast<size_t>(counts.num_explained));
   evidence.fits.resize(static_cast<size_t>(counts.num_explained));
   evidence.hollow.resize(static_cast<size_t>(counts.num_hollow));
+  evidence.overhanging.resize(static_cast<size_t>(counts.num_overhanging));
   evidence.fit_sum = counts.fit;
   evidence.window = {window.u_begin, window.u_end, window.v_begin, window.v_end};
   const int weight = observation.grid.pixel_weight();
@@ -74,7 +77,6 @@ void CastRays(const Solid& solid, const Observation& observation, RayEvidence* r
   evidence.num_contradicting = weight * counts.num_contradicting;
   evidence.num_occluded = weight * counts.num_occluded;
   evidence.num_violating = weight * counts.num_violating;
-  evidence.num_overhanging = weight * counts.num_overhanging;
   evidence.num_unknown = weight * counts.num_unknown;
 }
 
@@ -86,6 +88,13 @@ double FitAlone(const RayEvidence& evidence, const std::vector<uint8_t>& num_exp
     fit_sum += is_alone ? evidence.fits[i] : 0;
   }
   return static_cast<double>(evidence.pixel_weight * fit_sum) / kFitUnit;
+}
+
+int NumOverhangingAlone(const RayEvidence& evidence, const std::vector<uint8_t>& num_explaining) {
+  const auto num =
+      std::count_if(evidence.overhanging.begin(), evidence.overhanging.end(),
+                    [&](int32_t pixel) { return num_explaining[static_cast<size_t>(pixel)] == 0; });
+  return evidence.pixel_weight * static_cast<int>(num);
 }
 
 void FindExplainedPoints(const Solid& solid, const RayEvidence& evidence,

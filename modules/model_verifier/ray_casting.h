@@ -43,17 +43,19 @@ struct RayEvidence {
   PixelWindow window;    // of the grid, that holds them all
   // Indices of pixels that look into a cylinder through its open top.
   UninitializedVector<int32_t> hollow;
+  // Indices of pixels beside the solid, where its top face goes on.
+  UninitializedVector<int32_t> overhanging;
   int num_contradicting = 0;  // measured on the surface, with another normal
   int num_occluded = 0;       // hidden by something in front
   int num_violating = 0;      // measured behind the surface: free space inside
-  int num_overhanging = 0;    // beside the solid, where its top face goes on
   int num_unknown = 0;        // not measured
 
   int num_explained() const { return pixel_weight * static_cast<int>(explained.size()); }
+  int num_overhanging() const { return pixel_weight * static_cast<int>(overhanging.size()); }
   // [px] that speak for the solid, by how well they fit.
   double Fit() const { return static_cast<double>(pixel_weight * fit_sum) / kFitUnit; }
   // [px] that speak for the solid less those that speak against it.
-  double Balance() const { return Fit() - num_violating - num_contradicting - num_overhanging; }
+  double Balance() const { return Fit() - num_violating - num_contradicting - num_overhanging(); }
 };
 
 // Casts a ray through each observed pixel that can see the solid. Points within the noise of the
@@ -66,6 +68,9 @@ void CastRays(const Solid& solid, const Observation& observation, RayEvidence* r
 // do, for each pixel of the grid.
 double FitAlone(const RayEvidence& evidence, const std::vector<uint8_t>& num_explaining,
                 int max_num);
+
+// [px] of the overhanging ones that no solid explains: what goes on there may be another.
+int NumOverhangingAlone(const RayEvidence& evidence, const std::vector<uint8_t>& num_explaining);
 
 // The measured points that a solid explains, in O [m], in place of what points_O held.
 void FindExplainedPoints(const Solid& solid, const RayEvidence& evidence,

@@ -83,8 +83,8 @@ TEST(CastRays, LeavesTheSupportPlaneToItself) {
 
 TEST(CastRays, CountsATopFaceThatGoesOnBesideTheSolid) {
   const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
-  EXPECT_GT(CastAt(solid, Wall(950), FarPlane()).num_overhanging, 20);
-  EXPECT_EQ(CastAt(solid, Wall(965), FarPlane()).num_overhanging, 0);
+  EXPECT_GT(CastAt(solid, Wall(950), FarPlane()).num_overhanging(), 20);
+  EXPECT_EQ(CastAt(solid, Wall(965), FarPlane()).num_overhanging(), 0);
 }
 
 TEST(CastRays, CountsAboutTheSameAtEverySecondPixel) {

@@ -127,21 +127,26 @@ HWY_INLINE NormalMatch MatchNormal(const FaceDistances& q, const Vector3& p, con
 // Points beside the solid that lie in the plane of its top face, of those at its height. The side
 // of something that stands in front is no part of it.
 template <bool kIsCylinder>
-HWY_INLINE int CountOverhanging(const RaySolid& solid, const RayWindow& window,
-                                const RayLimits& limits, const Pixels& pixels,
-                                const Mask& is_at_top, const Vector3& ray_O, int u, int v) {
+HWY_INLINE void AppendOverhanging(const RaySolid& solid, const RayWindow& window,
+                                  const RayLimits& limits, const Pixels& pixels,
+                                  const Mask& is_at_top, const Vector3& ray_O, int u, int v,
+                                  RayCounts* counts) {
   const Floats f;
   const FaceDistances q = DistancesToFaces<kIsCylinder>(solid, PointInO(solid, ray_O, pixels.z));
   const auto overhang = kIsCylinder ? q.x : hn::Max(q.x, q.y);
   auto is_overhanging = hn::And(
       is_at_top,
       hn::And(hn::Ge(overhang, hn::Zero(f)), hn::Le(overhang, Constant(limits.max_overhang_m))));
-  if (hn::AllFalse(f, is_overhanging)) return 0;
+  if (hn::AllFalse(f, is_overhanging)) return;
   is_overhanging = hn::And(is_overhanging,
                            hn::Ge(HeightAbove(solid.support, pixels), Tolerance(limits, pixels.z)));
   const Vector3 n_C = NormalsAt(window, u, v);
   const auto is_top = hn::Gt(Dot(solid.R_OC + 6, n_C), Constant(limits.min_normal_cos));
-  return Count(hn::And(is_overhanging, hn::Or(is_top, hn::Not(IsKnown(n_C)))));
+  is_overhanging = hn::And(is_overhanging, hn::Or(is_top, hn::Not(IsKnown(n_C))));
+  const Ints i32;
+  Append(i32, hn::Iota(i32, v * window.columns + u), hn::RebindMask(i32, is_overhanging),
+         counts->overhanging + counts->num_overhanging);
+  counts->num_overhanging += Count(is_overhanging);
 }
 
 // Appends the pixels on the surface whose normals do not contradict it.
@@ -221,8 +226,7 @@ HWY_INLINE void CastPixels(const RaySolid& solid, const RayWindow& window, const
   const auto is_at_top = hn::AndNot(
       is_hit, hn::And(pixels.is_measured, hn::Le(from_top, Constant(limits.top_tolerance_m))));
   if (!hn::AllFalse(f, is_at_top)) {
-    counts->num_overhanging +=
-        CountOverhanging<kIsCylinder>(solid, window, limits, pixels, is_at_top, ray_O, u, v);
+    AppendOverhanging<kIsCylinder>(solid, window, limits, pixels, is_at_top, ray_O, u, v, counts);
   }
   if (hn::AllFalse(f, is_hit)) return;
   counts->num_unknown += Count(hn::AndNot(pixels.is_measured, is_hit));

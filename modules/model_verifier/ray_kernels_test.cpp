@@ -91,21 +91,23 @@ struct RandomImage {
 
 struct Sorted {
   RayCounts counts;
-  std::vector<int32_t> explained, fits, hollow;
+  std::vector<int32_t> explained, fits, hollow, overhanging;
 };
 
 Sorted Cast(const Solid& solid, const RandomImage& image) {
   Sorted sorted;
-  for (auto* list : {&sorted.explained, &sorted.fits, &sorted.hollow}) {
+  for (auto* list : {&sorted.explained, &sorted.fits, &sorted.hollow, &sorted.overhanging}) {
     list->resize(kRows * kColumns + kRayPadding);
   }
   sorted.counts.explained = sorted.explained.data();
   sorted.counts.fits = sorted.fits.data();
   sorted.counts.hollow = sorted.hollow.data();
+  sorted.counts.overhanging = sorted.overhanging.data();
   CastWindow(AsRaySolid(solid), image.Window(), kLimits, &sorted.counts);
   sorted.explained.resize(static_cast<size_t>(sorted.counts.num_explained));
   sorted.fits.resize(sorted.explained.size());
   sorted.hollow.resize(static_cast<size_t>(sorted.counts.num_hollow));
+  sorted.overhanging.resize(static_cast<size_t>(sorted.counts.num_overhanging));
   return sorted;
 }
 
@@ -249,6 +251,7 @@ TEST_P(RayKernels, GiveTheSameWithEveryInstructionSet) {
     EXPECT_EQ(sorted.explained, first->explained) << hwy::TargetName(target);
     EXPECT_EQ(sorted.fits, first->fits) << hwy::TargetName(target);
     EXPECT_EQ(sorted.hollow, first->hollow) << hwy::TargetName(target);
+    EXPECT_EQ(sorted.overhanging, first->overhanging) << hwy::TargetName(target);
     EXPECT_EQ(sorted.counts.fit, first->counts.fit);
     EXPECT_EQ(sorted.counts.num_violating, first->counts.num_violating);
     const int num_near = CountNear(AsRaySolid(solid), image.Window(), kLimits, 0.01f);
