@@ -13,16 +13,21 @@ namespace declutter {
 // explains more and less is seen through.
 bool ModelSelection::Divide(size_t old, const Input& input) {
   constexpr size_t kMaxTries = 4;
-  constexpr double kMaxTopStep = 0.010;  // [m] between what may be of one patch
-  constexpr double kMaxSeenShare = 0.5;  // of what is seen through it, through the parts
+  constexpr double kMinSeenShare = 0.015;  // of what it explains: a larger one has longer edges
+  constexpr double kMaxTopStep = 0.010;    // [m] between what may be of one patch
+  constexpr double kMaxSeenShare = 0.5;    // of what is seen through it, through the parts
   const Plane& support = input.observation.support;
   const Solid& solid = candidates_[old].hypothesis.solid;
+  const RayEvidence& evidence = candidates_[old].evidence;
+  const double min_seen =
+      std::max<double>(kMaxSeenThrough, kMinSeenShare * evidence.num_explained());
   if (solid.shape != Shape::kBox || !IsUpright(solid, support) ||
-      candidates_[old].evidence.num_violating < kMaxSeenThrough)
+      evidence.num_violating < min_seen) {
     return false;
-  const int num_seen_through =
+  }
+  const int num_seen =
       declutter::NumSeenThrough(solid, input.observation, &input.buffers->evidence);
-  if (num_seen_through < kMaxSeenThrough) return false;
+  if (num_seen < min_seen) return false;
   FindPartsInside(old, input);
   if (inside_.size() > kMaxTries) inside_.resize(kMaxTries);
   const double top = TopOf(solid, support);
@@ -34,7 +39,7 @@ bool ModelSelection::Divide(size_t old, const Input& input) {
     ProposeForRest(old, part, input);
     if (Replace(Only({old}), part, input)) {
       if (std::all_of(instead_.begin(), instead_.end(), is_beside) &&
-          NumSeenThrough(instead_, input) < kMaxSeenShare * num_seen_through) {
+          NumSeenThrough(instead_, input) < kMaxSeenShare * num_seen) {
         return true;
       }
       PutBack(Only({old}));
@@ -58,7 +63,8 @@ void ModelSelection::FindPartsInside(size_t old, const Input& input) {
     if (i == old || !IsFree(candidate) || !AreRivals(i, old)) continue;
     const double gain = Gain(&candidate);
     if (gain >= config_.min_explained_px() && gain <= max_gain &&
-        candidate.evidence.Balance() >= kMinFit * candidate.evidence.num_explained()) {
+        candidate.evidence.Balance() + candidate.evidence.num_overhanging() >=
+            kMinFit * candidate.evidence.num_explained()) {
       inside_.push_back(i);
     }
   }
