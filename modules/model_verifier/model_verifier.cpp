@@ -8,6 +8,7 @@
 #include "modules/model_verifier/column.h"
 #include "modules/model_verifier/confidence.h"
 #include "modules/model_verifier/end_evidence.h"
+#include "modules/model_verifier/noise_level.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/systematic_misfit.h"
 #include "modules/model_verifier/uncertainty.h"
@@ -151,6 +152,7 @@ void ModelVerifier::Measure(ObjectList* list) {
   RemoveLabelled(list->labels, &unlabelled_);
   const Observation unlabelled{observation.image, unlabelled_, observation.normals,
                                observation.support};
+  const double noise_level = NoiseLevel(observation);
   for (size_t i = 0; i < num; ++i) {
     ObjectModel& object = list->objects[i];
     std::vector<Eigen::Vector3d>& points_O = buffers_.explained_O;
@@ -164,7 +166,8 @@ void ModelVerifier::Measure(ObjectList* list) {
     const SolidEnds ends = EndsOf(object.solid, object.evidence, evidence_[i], points_O,
                                   observed_.every_second_pixel(), &buffers_.evidence);
     object.evidence = ExtentEvidence(ends);
-    object.covariance = CovarianceOf(object.solid, ends, evidence_[i], points_O, list->camera);
+    object.covariance =
+        CovarianceOf(object.solid, ends, evidence_[i], points_O, list->camera, noise_level);
     if (!IsSupported(object, evidence_[i], num_explaining_, config_.min_explained_px())) {
       object.confidence = 0;
     }

@@ -15,6 +15,7 @@ constexpr double kEdgeError = 0.5;       // [px] of an edge
 constexpr double kSupportSd = 0.0007;    // [m] of the support plane at an object
 constexpr double kAssumedSd = 0.025;     // [m] of a hidden end
 constexpr double kDepthBias = 0.5;       // [sigma] of all depths around an object
+constexpr double kSideSd = 0.0003;       // [m] of a cylinder's side, however little noise there is
 constexpr double kMaxSd = 0.1;           // [m]
 
 double Square(double x) { return x * x; }
@@ -67,7 +68,7 @@ Eigen::Matrix3d CovarianceOfSide(const Solid& solid, const std::vector<Eigen::Ve
     const Eigen::Vector3d J(-p_O.x() / distance, -p_O.y() / distance, -1);
     H += pixel_weight / (kPixelsPerSample * Square(sigma)) * J * J.transpose();
   }
-  return H.inverse() + Square(kFaceBias * sigma) * Eigen::Matrix3d::Identity();
+  return H.inverse() + (Square(kFaceBias * sigma) + Square(kSideSd)) * Eigen::Matrix3d::Identity();
 }
 
 // [rad^2] of the rotation about z of a box: the error of a face along its length.
@@ -91,8 +92,8 @@ double VarianceOfYaw(const Solid& solid, const SolidEnds& ends, double sigma,
 
 SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends, const RayEvidence& evidence,
                              const std::vector<Eigen::Vector3d>& points_O,
-                             const PinholeCamera& camera) {
-  const double sigma = MeasurementSigma(solid.X_CO.translation().z());
+                             const PinholeCamera& camera, double noise_level) {
+  const double sigma = noise_level * MeasurementSigma(solid.X_CO.translation().z());
   SolidCovariance covariance = SolidCovariance::Zero();
   const auto variance = [&](int axis, int side) {
     return VarianceOfEnd(solid, ends[static_cast<size_t>(axis)][static_cast<size_t>(side)], axis,
