@@ -8,6 +8,7 @@ namespace declutter {
 namespace {
 
 constexpr int kNumCuts = 12;         // places along each side that a box may be cut at
+constexpr int kNumFineCuts = 8;      // places between two of those, around the best
 constexpr size_t kMinPoints = 20;    // of a part
 constexpr double kMaxArea = 0.9;     // of the box that both parts may have together
 constexpr double kOutermost = 0.01;  // share of the points that may lie beyond an end
@@ -63,15 +64,26 @@ std::optional<std::array<Solid, 2>> BoxSplitter::Split(
     const Solid& box, const std::vector<Eigen::Vector3d>& points_O) {
   std::optional<std::array<Solid, 2>> best;
   double best_area = kMaxArea * box.size.x() * box.size.y();
+  int best_axis = 0;
+  double best_cut = 0;
+  const auto cut_at = [&](int axis, double cut) {
+    const auto lower = Around(points_O, axis, -box.size[axis], cut, &coordinates_);
+    const auto upper = Around(points_O, axis, cut, box.size[axis], &coordinates_);
+    if (!lower || !upper || lower->area() + upper->area() >= best_area) return;
+    best_area = lower->area() + upper->area();
+    best_axis = axis;
+    best_cut = cut;
+    best = {BoxOver(*lower, box), BoxOver(*upper, box)};
+  };
   for (int axis = 0; axis < 2; ++axis) {
-    for (int k = 1; k < kNumCuts; ++k) {
-      const double cut = box.size[axis] * (static_cast<double>(k) / kNumCuts - 0.5);
-      const auto lower = Around(points_O, axis, -box.size[axis], cut, &coordinates_);
-      const auto upper = Around(points_O, axis, cut, box.size[axis], &coordinates_);
-      if (!lower || !upper || lower->area() + upper->area() >= best_area) continue;
-      best_area = lower->area() + upper->area();
-      best = {BoxOver(*lower, box), BoxOver(*upper, box)};
-    }
+    const double step = box.size[axis] / kNumCuts;
+    for (int k = 1; k < kNumCuts; ++k) cut_at(axis, k * step - 0.5 * box.size[axis]);
+  }
+  if (!best) return best;
+  const double coarse_cut = best_cut;
+  const double step = box.size[best_axis] / (kNumCuts * kNumFineCuts);
+  for (int k = 1; k < kNumFineCuts; ++k) {
+    for (const double sign : {-1, 1}) cut_at(best_axis, coarse_cut + sign * k * step);
   }
   return best;
 }

@@ -325,6 +325,21 @@ TEST(RefineIfNoWorse, KeepsASolidThatAFitWouldLeadAstray) {
   EXPECT_NEAR(solid.radius(), truth.radius(), 0.006);
 }
 
+TEST(RefineIfNoWorse, KeepsABoxOffTheTopOfItsNeighbour) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.025 size_y_m: 0.05 size_z_m: 0.11 } y_m: 0.65 }"
+      "object { box { size_x_m: 0.025 size_y_m: 0.05 size_z_m: 0.11 } x_m: 0.026 y_m: 0.654 }");
+  ObservedImage observed;
+  observed.Set(scene.depth, scene.table);
+  const Observation observation = observed.every_second_pixel();
+  Solid solid = scene.objects[0].solid;
+  RayEvidence evidence = CastRays(solid, observation);
+  FitBuffers buffers;
+  EXPECT_GT(Refine(solid, observation, &buffers.points).size.x(), 0.045);
+  RefineIfNoWorse(observation, observation, &solid, &evidence, &buffers);
+  EXPECT_NEAR(solid.size.x(), 0.025, 0.003);
+}
+
 TEST(ClimbCylinder, FindsACylinderByItsTopWhereItsSideIsHidden) {
   const RenderedScene scene = RenderText(
       "object { cylinder { radius_m: 0.04 height_m: 0.12 } y_m: 0.7 }"

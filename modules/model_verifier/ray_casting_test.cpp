@@ -87,6 +87,18 @@ TEST(CastRays, CountsATopFaceThatGoesOnBesideTheSolid) {
   EXPECT_EQ(CastAt(solid, Wall(965), FarPlane()).num_overhanging(), 0);
 }
 
+TEST(CastRays, LeavesATopBesideTheSolidToWhatExplainsIt) {
+  const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
+  const DepthImage image = Wall(950);
+  const RayEvidence evidence = CastAt(solid, image, FarPlane());
+  std::vector<uint8_t> num_explaining(image.counts.size(), 0);
+  EXPECT_EQ(NumOverhangingAlone(evidence, num_explaining), evidence.num_overhanging());
+  for (size_t i = 0; i < 20; ++i) {
+    num_explaining[static_cast<size_t>(evidence.overhanging[i])] = 1;
+  }
+  EXPECT_EQ(NumOverhangingAlone(evidence, num_explaining), evidence.num_overhanging() - 20);
+}
+
 TEST(CastRays, CountsAboutTheSameAtEverySecondPixel) {
   const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
   const DepthImage image = Wall(950);
