@@ -13,7 +13,6 @@ constexpr double kBeyond = 0.010;   // [m] from an end to where its surroundings
 constexpr int kProbes = 9;          // along each edge
 constexpr double kInset = 0.85;     // of the half size, up to which an edge is probed
 constexpr int kMinFacePoints = 60;  // [px] that place a face
-constexpr int kMinViolating = 25;   // [px] of free space that a longer solid would take
 
 struct Votes {
   int seen = 0;    // free space behind the edge

@@ -23,6 +23,11 @@ enum class EndEvidence : int8_t {
 // The two ends along each axis of O, the lower coordinate first.
 using SolidEnds = std::array<std::array<EndEvidence, 2>, 3>;
 
+// [m^2] of the two ends along each axis.
+using EndVariances = std::array<std::array<double, 2>, 3>;
+
+inline constexpr int kMinViolating = 25;  // [px] of free space that a longer solid would take
+
 // How far a hidden end may lie beyond its place when it is kFreeSpace [m].
 inline constexpr double kFreeSpaceReach = 0.020;
 

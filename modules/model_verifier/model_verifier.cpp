@@ -8,6 +8,7 @@
 #include "modules/model_verifier/column.h"
 #include "modules/model_verifier/confidence.h"
 #include "modules/model_verifier/end_evidence.h"
+#include "modules/model_verifier/hidden_ends.h"
 #include "modules/model_verifier/noise_level.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/systematic_misfit.h"
@@ -110,6 +111,7 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   // Models are selected by every second pixel; what is selected is measured with all.
   Select(hypotheses.hypotheses, observed_.every_second_pixel(), &list.objects);
   settler_.Settle(observed_.every_second_pixel(), &list.objects);
+  LabelPixels(&list);
   Measure(&list);
   DropUncertain(config_.min_confidence(), &list);
   return list;
@@ -130,7 +132,7 @@ void ModelVerifier::Select(const std::vector<Hypothesis>& hypotheses,
   }
 }
 
-void ModelVerifier::Measure(ObjectList* list) {
+void ModelVerifier::LabelPixels(ObjectList* list) {
   const Observation observation = observed_.every_pixel();
   const size_t num = list->objects.size();
   if (evidence_.size() < num) evidence_.resize(num);
@@ -147,12 +149,19 @@ void ModelVerifier::Measure(ObjectList* list) {
   owners_.Assign(of_objects_, observation.grid.num_pixels());
   list->labels = owners_.owners();
   LabelHollow(evidence_, list);
+}
+
+void ModelVerifier::Measure(ObjectList* list) {
+  const Observation observation = observed_.every_pixel();
+  const size_t num = list->objects.size();
   CountExplaining(evidence_, num, list->labels.size(), &num_explaining_);
   unlabelled_ = observation.grid;
   RemoveLabelled(list->labels, &unlabelled_);
   const Observation unlabelled{observation.image, unlabelled_, observation.normals,
                                observation.support};
   const double noise_level = NoiseLevel(observation);
+  ends_.resize(num);
+  variances_.resize(num);
   for (size_t i = 0; i < num; ++i) {
     ObjectModel& object = list->objects[i];
     std::vector<Eigen::Vector3d>& points_O = buffers_.explained_O;
@@ -163,14 +172,34 @@ void ModelVerifier::Measure(ObjectList* list) {
     if (object.solid.shape == Shape::kCylinder) {
       object.confidence *= static_cast<float>(ShareOfSide(object.solid, points_O));
     }
-    const SolidEnds ends = EndsOf(object.solid, object.evidence, evidence_[i], points_O,
-                                  observed_.every_second_pixel(), &buffers_.evidence);
-    object.evidence = ExtentEvidence(ends);
-    object.covariance =
-        CovarianceOf(object.solid, ends, evidence_[i], points_O, list->camera, noise_level);
+    ends_[i] = EndsOf(object.solid, object.evidence, evidence_[i], points_O,
+                      observed_.every_second_pixel(), &buffers_.evidence);
+    object.evidence = ExtentEvidence(ends_[i]);
     if (!IsSupported(object, evidence_[i], num_explaining_, config_.min_explained_px())) {
       object.confidence = 0;
     }
+    variances_[i] =
+        VariancesOf(object.solid, ends_[i], object.num_explained, list->camera, noise_level);
+    object.covariance = CovarianceOf(object.solid, ends_[i], variances_[i], points_O,
+                                     evidence_[i].pixel_weight, list->camera, noise_level);
+  }
+  for (size_t i = 0; i < num; ++i) {
+    ObjectModel& object = list->objects[i];
+    if (object.confidence < config_.min_confidence() || object.solid.shape != Shape::kBox) continue;
+    FindOthers(i, *list);
+    CompleteHiddenEnds(ends_[i], others_, observed_.every_second_pixel(), &object.solid,
+                       &variances_[i], &buffers_.evidence);
+    object.covariance =
+        CovarianceOf(object.solid, ends_[i], variances_[i], {}, 1, list->camera, noise_level);
+  }
+}
+
+// Makes others_ the solids of all objects that will be reported but one.
+void ModelVerifier::FindOthers(size_t index, const ObjectList& list) {
+  others_.clear();
+  for (size_t i = 0; i < list.objects.size(); ++i) {
+    if (i == index || list.objects[i].confidence < config_.min_confidence()) continue;
+    others_.push_back(list.objects[i].solid);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/solid.h"
+#include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/model_verifier.pb.h"
 #include "modules/model_verifier/observation.h"
@@ -26,8 +27,10 @@ class ModelVerifier {
   // The hypotheses that explain the image best, fitted to all pixels.
   void Select(const std::vector<Hypothesis>& hypotheses, const Observation& observation,
               std::vector<ObjectModel>* objects);
-  // Labels pixels, and measures how certain each object is.
+  void LabelPixels(ObjectList* list);
+  // How certain each object is, and its extents; completes those that are hidden.
   void Measure(ObjectList* list);
+  void FindOthers(size_t index, const ObjectList& list);
 
   ModelVerifierConfig config_;
   ModelSelection selection_;
@@ -42,6 +45,9 @@ class ModelVerifier {
   PixelOwners owners_;
   std::vector<uint8_t> num_explaining_;  // objects, per pixel
   PixelGrid unlabelled_;
+  std::vector<SolidEnds> ends_;  // of each object
+  std::vector<EndVariances> variances_;
+  std::vector<Solid> others_;  // CompleteHiddenEnds
 };
 
 }  // namespace declutter

@@ -51,7 +51,8 @@ double VarianceOfEnd(const Solid& solid, EndEvidence end, int axis, int sign, do
 }
 
 // Adds an end of an axis: centre and extent are (low + high) / 2 and high - low.
-void AddEnds(int axis, double variance_low, double variance_high, SolidCovariance* covariance) {
+void AddEnds(int axis, const std::array<double, 2>& variances, SolidCovariance* covariance) {
+  const auto [variance_low, variance_high] = variances;
   (*covariance)(axis, axis) += 0.25 * (variance_low + variance_high);
   (*covariance)(3 + axis, 3 + axis) += variance_low + variance_high;
   (*covariance)(axis, 3 + axis) += 0.5 * (variance_high - variance_low);
@@ -90,19 +91,29 @@ double VarianceOfYaw(const Solid& solid, const SolidEnds& ends, double sigma,
 
 }  // namespace
 
-SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends, const RayEvidence& evidence,
-                             const std::vector<Eigen::Vector3d>& points_O,
+EndVariances VariancesOf(const Solid& solid, const SolidEnds& ends, int num_explained,
+                         const PinholeCamera& camera, double noise_level) {
+  const double sigma = noise_level * MeasurementSigma(solid.X_CO.translation().z());
+  EndVariances variances;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (size_t side = 0; side < 2; ++side) {
+      variances[axis][side] = VarianceOfEnd(solid, ends[axis][side], static_cast<int>(axis),
+                                            side == 0 ? -1 : 1, sigma, num_explained / 3, camera);
+    }
+  }
+  return variances;
+}
+
+SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends,
+                             const EndVariances& variances,
+                             const std::vector<Eigen::Vector3d>& points_O, int pixel_weight,
                              const PinholeCamera& camera, double noise_level) {
   const double sigma = noise_level * MeasurementSigma(solid.X_CO.translation().z());
   SolidCovariance covariance = SolidCovariance::Zero();
-  const auto variance = [&](int axis, int side) {
-    return VarianceOfEnd(solid, ends[static_cast<size_t>(axis)][static_cast<size_t>(side)], axis,
-                         side == 0 ? -1 : 1, sigma, evidence.num_explained() / 3, camera);
-  };
-  AddEnds(2, variance(2, 0), variance(2, 1), &covariance);
+  AddEnds(2, variances[2], &covariance);
   if (solid.shape == Shape::kBox) {
-    AddEnds(0, variance(0, 0), variance(0, 1), &covariance);
-    AddEnds(1, variance(1, 0), variance(1, 1), &covariance);
+    AddEnds(0, variances[0], &covariance);
+    AddEnds(1, variances[1], &covariance);
     covariance(6, 6) = VarianceOfYaw(solid, ends, sigma, camera);
   } else {
     // Diameters are twice the radius.
@@ -110,7 +121,7 @@ SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends, const Ra
     J(0, 0) = J(1, 1) = 1;
     J(2, 2) = J(3, 2) = 2;
     const Eigen::Matrix4d side =
-        J * CovarianceOfSide(solid, points_O, evidence.pixel_weight, sigma) * J.transpose();
+        J * CovarianceOfSide(solid, points_O, pixel_weight, sigma) * J.transpose();
     const int indices[4] = {0, 1, 3, 4};
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) covariance(indices[i], indices[j]) += side(i, j);

@@ -10,12 +10,18 @@
 
 namespace declutter {
 
-// Covariance of a solid from what its ends rest on and, for a cylinder, from the points on its side
-// (points_O, in its frame: the inverse of the normal matrix of the last fit). Every end has an
-// error of its own; a position has that of the depth in common, which no extent has. The standard
+// Of the ends of a solid that explains num_explained pixels, by what they rest on. The standard
 // deviations are those of rendered scenes; noise_level is that of the sensor, as NoiseLevel tells.
-SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends, const RayEvidence& evidence,
-                             const std::vector<Eigen::Vector3d>& points_O,
+EndVariances VariancesOf(const Solid& solid, const SolidEnds& ends, int num_explained,
+                         const PinholeCamera& camera, double noise_level);
+
+// Covariance of a solid from its ends and, for a cylinder, from the points on its side (points_O,
+// in its frame, each of which stands for pixel_weight pixels: the inverse of the normal matrix of
+// the last fit). Every end has an error of its own; a position has that of the depth in common,
+// which no extent has.
+SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends,
+                             const EndVariances& variances,
+                             const std::vector<Eigen::Vector3d>& points_O, int pixel_weight,
                              const PinholeCamera& camera, double noise_level);
 
 }  // namespace declutter

@@ -1,0 +1,84 @@
+#include "modules/model_verifier/hidden_ends.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/model_verifier/extents.h"
+#include "modules/model_verifier/shared_space.h"
+#include "modules/model_verifier/support_settling.h"
+
+namespace declutter {
+namespace {
+
+constexpr double kMeanHidden = 0.025;     // [m] of an object that others hide
+constexpr double kMaxRoom = 0.12;         // [m] behind others, beyond which next to none reach
+constexpr double kRoomStep = 0.005;       // [m] to which it is found
+constexpr double kMaxSharedSpace = 0.02;  // of an added part, inside another solid
+constexpr double kMinSd = 0.003;          // [m] of an end that cannot move
+
+// What an end adds as it moves outward.
+Solid AddedPart(Solid solid, int axis, int sign, double growth) {
+  solid.X_CO.translation() +=
+      0.5 * sign * (solid.size[axis] + growth) * solid.X_CO.linear().col(axis);
+  solid.size[axis] = growth;
+  return solid;
+}
+
+// [m] that an end can move outward.
+double RoomBeyond(const Solid& box, int axis, int sign, const std::vector<Solid>& others,
+                  const Observation& observation, RayEvidence* buffer) {
+  CastRays(box, observation, buffer);
+  const int too_many_violating = buffer->num_violating + kMinViolating;
+  const auto is_free = [&](double growth) {
+    CastRays(Longer(box, axis, sign, growth), observation, buffer);
+    const Solid part = AddedPart(box, axis, sign, growth);
+    return buffer->num_violating < too_many_violating &&
+           std::none_of(others.begin(), others.end(), [&](const Solid& other) {
+             return ShareSpace(part, other, kMaxSharedSpace);
+           });
+  };
+  double room = 0;
+  double too_far = std::min(kMaxRoom, kMaxExtent - box.size[axis]);
+  if (too_far <= 0) return 0;
+  if (is_free(too_far)) return too_far;
+  while (too_far - room > kRoomStep) {
+    const double middle = 0.5 * (room + too_far);
+    (is_free(middle) ? room : too_far) = middle;
+  }
+  return room;
+}
+
+// [m] the median of an exponential distribution that ends at `room`.
+double MedianUpTo(double room) {
+  return -kMeanHidden * std::log(0.5 + 0.5 * std::exp(-room / kMeanHidden));
+}
+
+// [m^2] its variance.
+double VarianceUpTo(double room) {
+  const double ratio = room / kMeanHidden;
+  const double beyond = std::exp(-ratio);
+  const double share = ratio > 0 ? 1 - ratio * ratio * beyond / ((1 - beyond) * (1 - beyond)) : 0.0;
+  return std::max(kMinSd * kMinSd, kMeanHidden * kMeanHidden * share);
+}
+
+}  // namespace
+
+void CompleteHiddenEnds(const SolidEnds& ends, const std::vector<Solid>& others,
+                        const Observation& observation, Solid* box, EndVariances* variances,
+                        RayEvidence* buffer) {
+  const Solid seen = *box;
+  // The lower end of what stands is on its support.
+  const size_t num_axes = IsUpright(seen, observation.support) ? 2 : 3;
+  for (size_t axis = 0; axis < num_axes; ++axis) {
+    for (size_t side = 0; side < 2; ++side) {
+      if (ends[axis][side] != EndEvidence::kAssumed) continue;
+      const int sign = side == 0 ? -1 : 1;
+      const double room =
+          RoomBeyond(seen, static_cast<int>(axis), sign, others, observation, buffer);
+      *box = Longer(*box, static_cast<int>(axis), sign, MedianUpTo(room));
+      (*variances)[axis][side] = VarianceUpTo(room);
+    }
+  }
+}
+
+}  // namespace declutter

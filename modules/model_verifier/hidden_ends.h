@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "modules/geometry/solid.h"
+#include "modules/model_verifier/end_evidence.h"
+#include "modules/model_verifier/observation.h"
+#include "modules/model_verifier/ray_casting.h"
+
+namespace declutter {
+
+// Moves the ends of a box of which nothing is seen (kAssumed) outward, from where the seen part
+// ends to where they most likely are, and sets their variances; those of all others are left. An
+// end may reach up to where free space or one of the other solids would be inside; the longer a
+// part that hides behind others, the rarer it is. The evidence is a buffer.
+void CompleteHiddenEnds(const SolidEnds& ends, const std::vector<Solid>& others,
+                        const Observation& observation, Solid* box, EndVariances* variances,
+                        RayEvidence* buffer);
+
+}  // namespace declutter
