@@ -176,6 +176,20 @@ TEST(ModelVerifier, UnitesWhatIsSeenOnBothSidesOfAnObstacle) {
   EXPECT_THAT(Verify(apart, {left, right}).objects, SizeIs(2));
 }
 
+TEST(ModelVerifier, DividesABoxThatIsSeenThrough) {
+  // Of one height, so that one patch holds the tops of both.
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.13 size_y_m: 0.11 size_z_m: 0.109 } y_m: 0.7 }"
+      "object { box { size_x_m: 0.082 size_y_m: 0.03 size_z_m: 0.109 } x_m: 0.112 y_m: 0.664 }");
+  const Solid& left = scene.objects[0].solid;
+  const Solid& right = scene.objects[1].solid;
+  const Solid both = Changed(left, {0.044, 0, 0}, {0.088, 0, 0});
+  const ObjectList list = Verify(scene, {Proposal(both), Proposal(right)});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  EXPECT_LT((list.objects[0].solid.size - left.size).norm(), 0.008);
+  EXPECT_LT((list.objects[1].solid.size - right.size).norm(), 0.008);
+}
+
 TEST(ModelVerifier, TakesNoPartOfABowlForACylinder) {
   std::string bowl = "object { cylinder { radius_m: 0.08 height_m: 0.05 } y_m: 0.65 }";
   for (int i = 0; i < 8; ++i) {

@@ -1,0 +1,51 @@
+#include "modules/model_verifier/free_space.h"
+
+#include <gtest/gtest.h>
+
+#include "modules/model_verifier/extents.h"
+#include "modules/scene_renderer/scene_renderer.h"
+#include "modules/scene_renderer/scene_text.h"
+
+namespace declutter {
+namespace {
+
+class SeenThrough : public testing::Test {
+ protected:
+  SeenThrough()
+      : scene_(Render(
+            ParseScene("object { box { size_x_m: 0.18 size_y_m: 0.08 size_z_m: 0.13 } y_m: 0.65 }",
+                       "scene"),
+            1)) {
+    observed_.Set(scene_.depth, scene_.table);
+  }
+
+  int Num(const Solid& solid) {
+    RayEvidence buffer;
+    return NumSeenThrough(solid, observed_.every_second_pixel(), &buffer);
+  }
+
+  RenderedScene scene_;
+  ObservedImage observed_;
+};
+
+TEST_F(SeenThrough, IsNoBoxThatIsSomewhatTooLarge) {
+  const Solid& box = scene_.objects[0].solid;
+  EXPECT_EQ(Num(box), 0);
+  Solid bulging = Longer(box, 2, 1, 0.004);
+  bulging.size.head<2>().array() += 0.008;
+  EXPECT_LT(Num(bulging), kMaxSeenThrough);
+}
+
+TEST_F(SeenThrough, IsABoxThatReachesIntoFreeSpace) {
+  EXPECT_GT(Num(Longer(scene_.objects[0].solid, 0, 1, 0.03)), kMaxSeenThrough);
+  EXPECT_GT(Num(Longer(scene_.objects[0].solid, 2, 1, 0.03)), kMaxSeenThrough);
+}
+
+TEST_F(SeenThrough, IsNothingThinnerThanWhatIsLeftOut) {
+  Solid thin = scene_.objects[0].solid;
+  thin.size.x() = 0.009;
+  EXPECT_EQ(Num(thin), 0);
+}
+
+}  // namespace
+}  // namespace declutter
