@@ -27,23 +27,22 @@ Solid AddedPart(Solid solid, int axis, int sign, double growth) {
 // [m] that an end can move outward.
 double RoomBeyond(const Solid& box, int axis, int sign, const std::vector<Solid>& others,
                   const Observation& observation, RayEvidence* buffer) {
-  CastRays(box, observation, buffer);
-  const int too_many_violating = buffer->num_violating + kMinViolating;
-  const auto is_free = [&](double growth) {
-    CastRays(Longer(box, axis, sign, growth), observation, buffer);
+  const auto is_possible = [&](double growth) {
     const Solid part = AddedPart(box, axis, sign, growth);
-    return buffer->num_violating < too_many_violating &&
-           std::none_of(others.begin(), others.end(), [&](const Solid& other) {
-             return ShareSpace(part, other, kMaxSharedSpace);
-           });
+    const auto is_in_part = [&](const Solid& other) {
+      return ShareSpace(part, other, kMaxSharedSpace);
+    };
+    if (std::any_of(others.begin(), others.end(), is_in_part)) return false;
+    CastRays(part, observation, buffer);
+    return buffer->num_violating < kMinViolating;
   };
   double room = 0;
   double too_far = std::min(kMaxRoom, kMaxExtent - box.size[axis]);
   if (too_far <= 0) return 0;
-  if (is_free(too_far)) return too_far;
+  if (is_possible(too_far)) return too_far;
   while (too_far - room > kRoomStep) {
     const double middle = 0.5 * (room + too_far);
-    (is_free(middle) ? room : too_far) = middle;
+    (is_possible(middle) ? room : too_far) = middle;
   }
   return room;
 }
