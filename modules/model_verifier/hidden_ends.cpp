@@ -47,6 +47,19 @@ double RoomBeyond(const Solid& box, int axis, int sign, const std::vector<Solid>
   return room;
 }
 
+// [m] by which an end reaches into others; 0 where that is most of the box.
+double OverlapAt(const Solid& box, int axis, int sign, const std::vector<Solid>& others) {
+  for (double overlap = 0; overlap < 0.4 * box.size[axis]; overlap += kRoomStep) {
+    const Solid layer =
+        AddedPart(Longer(box, axis, sign, -overlap - kRoomStep), axis, sign, kRoomStep);
+    const auto is_in_layer = [&](const Solid& other) {
+      return ShareSpace(layer, other, kMaxSharedSpace);
+    };
+    if (std::none_of(others.begin(), others.end(), is_in_layer)) return overlap;
+  }
+  return 0;
+}
+
 // [m] the median of an exponential distribution that ends at `room`.
 double MedianUpTo(double room) {
   return -kMeanHidden * std::log(0.5 + 0.5 * std::exp(-room / kMeanHidden));
@@ -67,15 +80,22 @@ void CompleteHiddenEnds(const SolidEnds& ends, const std::vector<Solid>& others,
                         RayEvidence* buffer) {
   const Solid seen = *box;
   // The lower end of what stands is on its support.
-  const size_t num_axes = IsUpright(seen, observation.support) ? 2 : 3;
-  for (size_t axis = 0; axis < num_axes; ++axis) {
-    for (size_t side = 0; side < 2; ++side) {
-      if (ends[axis][side] != EndEvidence::kAssumed) continue;
+  const int num_axes = IsUpright(seen, observation.support) ? 2 : 3;
+  for (int axis = 0; axis < num_axes; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const EndEvidence end = ends[static_cast<size_t>(axis)][static_cast<size_t>(side)];
+      if (end != EndEvidence::kAssumed && end != EndEvidence::kFreeSpace) continue;
+      double& variance = (*variances)[static_cast<size_t>(axis)][static_cast<size_t>(side)];
       const int sign = side == 0 ? -1 : 1;
-      const double room =
-          RoomBeyond(seen, static_cast<int>(axis), sign, others, observation, buffer);
-      *box = Longer(*box, static_cast<int>(axis), sign, MedianUpTo(room));
-      (*variances)[axis][side] = VarianceUpTo(room);
+      const double overlap = OverlapAt(seen, axis, sign, others);
+      if (overlap > 0) {
+        *box = Longer(*box, axis, sign, -overlap);
+        variance = VarianceUpTo(0);
+      } else if (end == EndEvidence::kAssumed) {
+        const double room = RoomBeyond(seen, axis, sign, others, observation, buffer);
+        *box = Longer(*box, axis, sign, MedianUpTo(room));
+        variance = VarianceUpTo(room);
+      }
     }
   }
 }

@@ -9,10 +9,11 @@
 
 namespace declutter {
 
-// Moves the ends of a box of which nothing is seen (kAssumed) outward, from where the seen part
-// ends to where they most likely are, and sets their variances; those of all others are left. An
-// end may reach up to where free space or one of the other solids would be inside; the longer a
-// part that hides behind others, the rarer it is. The evidence is a buffer.
+// Moves the ends of a box of which nothing is seen to where they most likely are, and sets their
+// variances; those of all others are left. An end that reaches into another solid ends before it.
+// One that may lie anywhere behind what hides it (kAssumed) reaches on from where the seen part
+// ends, at most to where free space or another solid would be inside; the longer a part that
+// others hide, the rarer it is. The evidence is a buffer.
 void CompleteHiddenEnds(const SolidEnds& ends, const std::vector<Solid>& others,
                         const Observation& observation, Solid* box, EndVariances* variances,
                         RayEvidence* buffer);

@@ -60,6 +60,17 @@ TEST_F(HiddenEnds, DoNotReachIntoAnother) {
   EXPECT_LT(variances_[0][1], 0.004 * 0.004);
 }
 
+TEST_F(HiddenEnds, AreCutWhereTheyReachIntoAnother) {
+  Solid another = scene_.objects[0].solid;
+  another.size.x() = 0.05;
+  another.X_CO.translation() += another.X_CO.linear() * Eigen::Vector3d(0.01, 0, 0);
+  EXPECT_NEAR(GrowthBesides({another}), -0.015, 0.005);
+  ends_[0][1] = EndEvidence::kFreeSpace;
+  EXPECT_NEAR(GrowthBesides({another}), -0.015, 0.005);
+  ends_[0][1] = EndEvidence::kFace;
+  EXPECT_EQ(GrowthBesides({another}), 0);
+}
+
 TEST_F(HiddenEnds, DoNotReachIntoFreeSpace) {
   // The end of the whole box: what follows is seen.
   Solid box = scene_.objects[0].solid;
