@@ -55,7 +55,7 @@ if ((${#folders[@]} == 0)); then
   fi
   for noise in real_sensor white; do
     build/bin/scene_renderer config/scenes/dense.textproto "$out/scenes/dense_$noise" \
-      --noise "$noise" --count 10
+      --noise "$noise" --count 50
     folders+=("$out/scenes/dense_$noise")
   done
 fi
