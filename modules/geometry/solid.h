@@ -56,9 +56,10 @@ struct ObjectModel {
   int32_t id = 0;  // 1 .. number of objects: its value in the label image
   Solid solid;
   std::array<Evidence, 3> evidence{};
-  float confidence = 0;       // in [0, 1]
-  int32_t supported_by = 0;   // id of the object it stands on, 0: the main support
-  int32_t num_votes = 0;      // votes in the peak of the parameter space
+  float confidence = 0;      // in [0, 1]
+  int32_t supported_by = 0;  // id of the object it stands on, 0: the main support
+  int32_t num_votes = 0;     // votes in the peak of the parameter space
+  // Of the solid as far as it is seen.
   int32_t num_explained = 0;  // [px] measured on its surface
   int32_t num_occluded = 0;   // [px] hidden by something in front
   int32_t num_violating = 0;  // [px] measured behind its surface: free space inside the solid

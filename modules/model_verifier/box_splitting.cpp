@@ -7,8 +7,8 @@
 namespace declutter {
 namespace {
 
-constexpr int kNumCuts = 12;         // places along each side that a box may be cut at
-constexpr int kNumFineCuts = 8;      // places between two of those, around the best
+constexpr int kNumCuts = 12;         // steps along each side between which a box may be cut
+constexpr int kNumFineCuts = 8;      // of each of those around the best
 constexpr size_t kMinPoints = 20;    // of a part
 constexpr double kMaxArea = 0.9;     // of the box that both parts may have together
 constexpr double kOutermost = 0.01;  // share of the points that may lie beyond an end

@@ -36,6 +36,18 @@ TEST(BoxSplitter, FindsTwoBoxesOfOneHeight) {
   EXPECT_LT((second_O - Eigen::Vector3d(0.035, -0.0225, 0)).norm(), tolerance);
 }
 
+TEST(BoxSplitter, CutsBetweenTheCoarsestPlaces) {
+  const Solid box = BoxOf({0.24, 0.09, 0.04});
+  std::vector<Eigen::Vector3d> points_O;
+  AddTop(-0.12, -0.02, 0.01, 0.045, &points_O);
+  AddTop(0.012, -0.045, 0.12, 0.02, &points_O);
+  const auto parts = BoxSplitter().Split(box, points_O);
+  ASSERT_TRUE(parts);
+  EXPECT_NEAR((*parts)[0].size.x(), 0.13, 0.005);
+  EXPECT_NEAR((*parts)[0].size.y(), 0.065, 0.004);
+  EXPECT_NEAR((*parts)[1].size.y(), 0.065, 0.004);
+}
+
 TEST(BoxSplitter, LeavesABoxThatIsFilledWhole) {
   std::vector<Eigen::Vector3d> points_O;
   AddTop(-0.07, -0.045, 0.07, 0.045, &points_O);

@@ -8,7 +8,7 @@ namespace declutter {
 // [px]: fewer than this see through the edges of a solid in its right place.
 inline constexpr int kMaxSeenThrough = 60;
 
-// [px] that see deeper into an upright solid than a carton bulges or a sensor bends it: free space
+// [px] that see deeper into a solid than a carton bulges or a sensor bends it: free space
 // that is no part of it. The evidence is a buffer.
 int NumSeenThrough(const Solid& solid, const Observation& observation, RayEvidence* buffer);
 

@@ -42,8 +42,11 @@ TEST_F(SeenThrough, IsABoxThatReachesIntoFreeSpace) {
 }
 
 TEST_F(SeenThrough, IsNothingThinnerThanWhatIsLeftOut) {
-  Solid thin = scene_.objects[0].solid;
-  thin.size.x() = 0.009;
+  // In free space, beside the box.
+  Solid thin = Longer(scene_.objects[0].solid, 0, 1, 0.2);
+  thin.X_CO.translation() += 0.1 * thin.X_CO.linear().col(0);
+  EXPECT_GT(Num(thin), kMaxSeenThrough);
+  thin.size.y() = 0.009;
   EXPECT_EQ(Num(thin), 0);
 }
 

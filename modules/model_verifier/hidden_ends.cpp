@@ -14,6 +14,10 @@ constexpr double kMeanHidden = 0.025;     // [m] of an object that others hide
 constexpr double kMaxRoom = 0.12;         // [m] behind others, beyond which next to none reach
 constexpr double kRoomStep = 0.005;       // [m] to which it is found
 constexpr double kMaxSharedSpace = 0.02;  // of an added part, inside another solid
+constexpr double kMaxBelow = 0.004;       // [m] under the support plane: noise
+constexpr double kLayer = 0.002;          // [m] by which an end that overlaps others is cut
+constexpr double kMaxCut = 0.4;           // of an extent
+constexpr double kMaxSharedLayer = 0.1;   // of a layer, inside another solid: less is a corner
 constexpr double kMinSd = 0.003;          // [m] of an end that cannot move
 
 // What an end adds as it moves outward.
@@ -27,8 +31,10 @@ Solid AddedPart(Solid solid, int axis, int sign, double growth) {
 // [m] that an end can move outward.
 double RoomBeyond(const Solid& box, int axis, int sign, const std::vector<Solid>& others,
                   const Observation& observation, RayEvidence* buffer) {
+  const double lowest = std::min(0.0, BottomOf(box, observation.support)) - kMaxBelow;
   const auto is_possible = [&](double growth) {
     const Solid part = AddedPart(box, axis, sign, growth);
+    if (BottomOf(part, observation.support) < lowest) return false;
     const auto is_in_part = [&](const Solid& other) {
       return ShareSpace(part, other, kMaxSharedSpace);
     };
@@ -47,13 +53,13 @@ double RoomBeyond(const Solid& box, int axis, int sign, const std::vector<Solid>
   return room;
 }
 
-// [m] by which an end reaches into others; 0 where that is most of the box.
+// [m] to cut from an end that reaches into others; 0 where too little would be left.
 double OverlapAt(const Solid& box, int axis, int sign, const std::vector<Solid>& others) {
-  for (double overlap = 0; overlap < 0.4 * box.size[axis]; overlap += kRoomStep) {
-    const Solid layer =
-        AddedPart(Longer(box, axis, sign, -overlap - kRoomStep), axis, sign, kRoomStep);
+  const double max_overlap = std::min(kMaxCut * box.size[axis], box.size[axis] - kMinExtent);
+  for (double overlap = 0; overlap <= max_overlap; overlap += kLayer) {
+    const Solid layer = AddedPart(Longer(box, axis, sign, -overlap - kLayer), axis, sign, kLayer);
     const auto is_in_layer = [&](const Solid& other) {
-      return ShareSpace(layer, other, kMaxSharedSpace);
+      return ShareSpace(layer, other, kMaxSharedLayer);
     };
     if (std::none_of(others.begin(), others.end(), is_in_layer)) return overlap;
   }
@@ -87,7 +93,7 @@ void CompleteHiddenEnds(const SolidEnds& ends, const std::vector<Solid>& others,
       if (end != EndEvidence::kAssumed && end != EndEvidence::kFreeSpace) continue;
       double& variance = (*variances)[static_cast<size_t>(axis)][static_cast<size_t>(side)];
       const int sign = side == 0 ? -1 : 1;
-      const double overlap = OverlapAt(seen, axis, sign, others);
+      const double overlap = OverlapAt(*box, axis, sign, others);
       if (overlap > 0) {
         *box = Longer(*box, axis, sign, -overlap);
         variance = VarianceUpTo(0);

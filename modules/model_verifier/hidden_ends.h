@@ -9,11 +9,11 @@
 
 namespace declutter {
 
-// Moves the ends of a box of which nothing is seen to where they most likely are, and sets their
+// Moves those ends of a box that are not seen to the median of where they may be, and sets their
 // variances; those of all others are left. An end that reaches into another solid ends before it.
-// One that may lie anywhere behind what hides it (kAssumed) reaches on from where the seen part
-// ends, at most to where free space or another solid would be inside; the longer a part that
-// others hide, the rarer it is. The evidence is a buffer.
+// One behind which nothing tells how far it goes on (kAssumed) reaches on from where it was taken
+// to be, at most to where free space, another solid or the support plane would be inside; the
+// longer a part that others hide, the rarer it is. The evidence is a buffer.
 void CompleteHiddenEnds(const SolidEnds& ends, const std::vector<Solid>& others,
                         const Observation& observation, Solid* box, EndVariances* variances,
                         RayEvidence* buffer);

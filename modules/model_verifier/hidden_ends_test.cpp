@@ -71,6 +71,24 @@ TEST_F(HiddenEnds, AreCutWhereTheyReachIntoAnother) {
   EXPECT_EQ(GrowthBesides({another}), 0);
 }
 
+TEST_F(HiddenEnds, DoNotReachUnderTheTable) {
+  // On its side, so that its x axis is upright, and taken to lean.
+  Solid box = scene_.objects[0].solid;
+  const double half_height = 0.5 * box.size.z();
+  box.X_CO =
+      box.X_CO * Eigen::AngleAxisd(0.5 * static_cast<double>(EIGEN_PI), Eigen::Vector3d::UnitY());
+  box.size = Eigen::Vector3d(2 * half_height, 0.06, 0.2);
+  const Solid before = box;
+  RayEvidence buffer;
+  for (size_t side = 0; side < 2; ++side) {
+    ends_[0] = {EndEvidence::kEdge, EndEvidence::kEdge};
+    ends_[0][side] = EndEvidence::kAssumed;
+    box = before;
+    CompleteHiddenEnds(ends_, {}, observed_.every_second_pixel(), &box, &variances_, &buffer);
+    EXPECT_LT(box.size.x(), before.size.x() + 0.006) << side;
+  }
+}
+
 TEST_F(HiddenEnds, DoNotReachIntoFreeSpace) {
   // The end of the whole box: what follows is seen.
   Solid box = scene_.objects[0].solid;

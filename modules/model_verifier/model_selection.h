@@ -81,19 +81,21 @@ class ModelSelection {
                double share_of_old = 1);
   void PutBack(const std::vector<size_t>& old);
   // model_selection_changes.cpp
-  bool Split(size_t old, const Input& input);
+  bool SplitByArea(size_t old, const Input& input);
   bool CutLower(size_t old, const Input& input);
-  bool Divide(size_t old, const Input& input);
-  void FindPartsInside(size_t old, const Input& input);
-  void ProposeForRest(size_t old, size_t part, const Input& input);
-  int NumSeenThrough(const std::vector<size_t>& indices, const Input& input);
   bool Reshape(size_t old, const Input& input);
   bool Unite(size_t old, const Input& input);
   std::optional<Solid> Through(const Solid& solid, const Candidate& candidate, const Input& input);
-  std::optional<size_t> BestOver(const std::vector<uint8_t>& is_marked, const Candidate& candidate,
-                                 const Input& input);
+  std::optional<size_t> AddOver(const std::vector<uint8_t>& is_marked, const PixelWindow& window,
+                                std::optional<Shape> but_shape, const Observation& fitted,
+                                const Input& input);
   bool ReplaceByParts(std::initializer_list<Solid> parts, size_t old, double share_of_old,
                       const Input& input);
+  // model_selection_division.cpp
+  bool SplitByCandidate(size_t old, const Input& input);
+  void FindPartsInside(size_t old);
+  void ProposeForRest(size_t old, size_t part, const Input& input);
+  int TotalSeenThrough(const std::vector<size_t>& indices, const Input& input);
   // model_selection.cpp
   std::optional<size_t> AddRefined(const Hypothesis& hypothesis, double min_px, const Input& input);
   std::optional<size_t> AddRefined(const Hypothesis& hypothesis, double min_px,
@@ -126,10 +128,10 @@ class ModelSelection {
   std::vector<size_t> only_;            // Only
   std::vector<size_t> order_;           // Exchange
   std::vector<size_t> instead_;         // Replace
-  std::vector<size_t> inside_;          // Divide
+  std::vector<size_t> inside_;          // FindPartsInside
   PixelGrid unclaimed_;                 // ProposeForRest
-  std::vector<uint8_t> is_own_;         // Reshape
-  BoxSplitter box_splitter_;            // Split
+  std::vector<uint8_t> is_own_;         // Reshape, ProposeForRest
+  BoxSplitter box_splitter_;            // SplitByArea
   std::vector<Solid> selected_solids_;  // ProposeForUnexplained
   std::vector<uint8_t> is_explained_;
 };

@@ -13,7 +13,7 @@ namespace declutter {
 
 // Gives the place of a box with much free space inside to two side by side: one patch of the height
 // of both may have been taken for one top face. True when that explains more.
-bool ModelSelection::Split(size_t old, const Input& input) {
+bool ModelSelection::SplitByArea(size_t old, const Input& input) {
   constexpr double kMaxFreeShare = 0.05;  // of the explained pixels: beyond what noise makes
   constexpr int kMaxFree = 60;            // [px] that edges leave
   const Solid& solid = candidates_[old].hypothesis.solid;
@@ -52,7 +52,7 @@ bool ModelSelection::Reshape(size_t old, const Input& input) {
   std::optional<size_t> best;
   if (num_own_px < kMaxPx &&
       gain < kMaxShare * (1 - noise_in_tolerances * noise_in_tolerances) * num_own_px) {
-    best = BestOver(is_own_, candidate, input);
+    best = AddOver(is_own_, candidate.evidence.window, solid.shape, input.observation, input);
   }
   const bool is_better = best && candidates_[*best].num_blockers == 0 &&
                          Gain(&candidates_[*best]) > kMinImprovement * gain;
@@ -60,22 +60,24 @@ bool ModelSelection::Reshape(size_t old, const Input& input) {
   return is_better && Replace(Only({old}), best, input);
 }
 
-// The candidate of the other shape that explains the most of some pixels that one explains.
-std::optional<size_t> ModelSelection::BestOver(const std::vector<uint8_t>& is_marked,
-                                               const Candidate& candidate, const Input& input) {
+// Adds solids over the marked pixels of a window, refined on another observation; of the shapes,
+// one may be left out. The one that explains the most.
+std::optional<size_t> ModelSelection::AddOver(const std::vector<uint8_t>& is_marked,
+                                              const PixelWindow& window,
+                                              std::optional<Shape> but_shape,
+                                              const Observation& fitted, const Input& input) {
   constexpr double kMinShare = 0.5;  // of the points it is laid over
-  const Shape shape = candidate.hypothesis.solid.shape;
   const int pixel_weight = input.observation.grid.pixel_weight();
   const Eigen::Isometry3d X_TC = TableFrame(input.observation.support);
   const Eigen::Isometry3d X_CT = X_TC.inverse();
   std::optional<size_t> best;
   for (const SurfacePart& part : part_finder_.Find(
-           is_marked, candidate.evidence.window, X_TC,
-           static_cast<size_t>(config_.min_explained_px() / pixel_weight), input.observation)) {
+           is_marked, window, X_TC, static_cast<size_t>(config_.min_explained_px() / pixel_weight),
+           input.observation)) {
     const double min_px = kMinShare * pixel_weight * static_cast<double>(part.num_points());
     for (const Hypothesis& hypothesis : part_completion_.SolidsOver(part, X_CT)) {
-      if (hypothesis.solid.shape == shape) continue;
-      const auto added = AddRefined(hypothesis, min_px, input);
+      if (hypothesis.solid.shape == but_shape) continue;
+      const auto added = AddRefined(hypothesis, min_px, fitted, input);
       if (added && (!best || Gain(&candidates_[*added]) > Gain(&candidates_[*best]))) best = added;
     }
   }
@@ -153,12 +155,12 @@ bool ModelSelection::Unite(size_t old, const Input& input) {
     const Candidate& whole = candidates_[*added];
     const double max_violating = larger.evidence.num_violating + evidence.num_violating +
                                  kMaxNewViolating * evidence.num_explained();
-    const int max_seen_through = kMaxSeenThrough + NumSeenThrough(Only({old, part}), input);
     const auto is_part = [&](size_t i) { return i == old || i == part; };
     const auto& blockers = BlockersOf(*added);
     if (whole.evidence.num_violating <= max_violating &&
-        NumSeenThrough(Only({*added}), input) < max_seen_through &&
         std::all_of(blockers.begin(), blockers.end(), is_part) &&
+        TotalSeenThrough({*added}, input) <
+            kMaxSeenThrough + TotalSeenThrough({old, part}, input) &&
         Replace(Only({old, part}), added, input, kMinShare * (1 - whole.misfit_share))) {
       candidates_[old].is_out = candidates_[part].is_out = true;
       return true;

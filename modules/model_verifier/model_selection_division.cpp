@@ -11,7 +11,7 @@ namespace declutter {
 // Gives the place of a box that is seen through to one that fills a part of it and what may fill
 // the rest: one patch of the height of several may have been taken for one top face. True when that
 // explains more and less is seen through.
-bool ModelSelection::Divide(size_t old, const Input& input) {
+bool ModelSelection::SplitByCandidate(size_t old, const Input& input) {
   constexpr size_t kMaxTries = 4;
   constexpr double kMinSeenShare = 0.015;  // of what it explains: a larger one has longer edges
   constexpr double kMaxTopStep = 0.010;    // [m] between what may be of one patch
@@ -25,21 +25,23 @@ bool ModelSelection::Divide(size_t old, const Input& input) {
       evidence.num_violating < min_seen) {
     return false;
   }
-  const int num_seen =
-      declutter::NumSeenThrough(solid, input.observation, &input.buffers->evidence);
+  const int num_seen = NumSeenThrough(solid, input.observation, &input.buffers->evidence);
   if (num_seen < min_seen) return false;
-  FindPartsInside(old, input);
+  FindPartsInside(old);
   if (inside_.size() > kMaxTries) inside_.resize(kMaxTries);
   const double top = TopOf(solid, support);
   const auto is_beside = [&](size_t i) {
     return std::abs(TopOf(candidates_[i].hypothesis.solid, support) - top) < kMaxTopStep;
   };
   for (const size_t part : inside_) {
+    // Those before it may have moved it.
+    const Candidate& candidate = candidates_[part];
+    if (candidate.is_out || candidate.num_blockers != 1 || !AreRivals(part, old)) continue;
     const size_t num_before = num_candidates_;
     ProposeForRest(old, part, input);
     if (Replace(Only({old}), part, input)) {
       if (std::all_of(instead_.begin(), instead_.end(), is_beside) &&
-          NumSeenThrough(instead_, input) < kMaxSeenShare * num_seen) {
+          TotalSeenThrough(instead_, input) < kMaxSeenShare * num_seen) {
         return true;
       }
       PutBack(Only({old}));
@@ -51,10 +53,9 @@ bool ModelSelection::Divide(size_t old, const Input& input) {
 
 // Makes inside_ the candidates that fit well and only a selected one keeps out, those that explain
 // most first.
-void ModelSelection::FindPartsInside(size_t old, const Input& input) {
+void ModelSelection::FindPartsInside(size_t old) {
   constexpr double kMinFit = 0.8;    // of a pixel: noise leaves 8 / 9
   constexpr double kMaxShare = 0.9;  // of what the selected one explains
-  (void)input;
   inside_.clear();
   Release(old);
   const double max_gain = kMaxShare * Gain(&candidates_[old]);
@@ -76,9 +77,7 @@ void ModelSelection::FindPartsInside(size_t old, const Input& input) {
 
 // Adds solids over what a selected candidate explains and neither a part of it nor another does.
 void ModelSelection::ProposeForRest(size_t old, size_t part, const Input& input) {
-  constexpr double kMinShare = 0.5;  // of the points a solid is laid over
   const Observation& observation = input.observation;
-  const int pixel_weight = observation.grid.pixel_weight();
   Release(old);
   Select(part);
   is_own_.assign(num_explaining_.size(), 0);
@@ -86,30 +85,22 @@ void ModelSelection::ProposeForRest(size_t old, size_t part, const Input& input)
     is_own_[static_cast<size_t>(pixel)] = num_explaining_[static_cast<size_t>(pixel)] == 0;
   }
   unclaimed_ = observation.grid;
-  for (const int32_t pixel : candidates_[part].evidence.explained)
+  for (const int32_t pixel : candidates_[part].evidence.explained) {
     unclaimed_.z[unclaimed_.Index(pixel)] = 0;
+  }
   const Observation unclaimed{observation.image, unclaimed_, observation.normals,
                               observation.support};
-  const Eigen::Isometry3d X_TC = TableFrame(observation.support);
-  const Eigen::Isometry3d X_CT = X_TC.inverse();
-  for (const SurfacePart& surface : part_finder_.Find(
-           is_own_, candidates_[old].evidence.window, X_TC,
-           static_cast<size_t>(config_.min_explained_px() / pixel_weight), observation)) {
-    const double min_px = kMinShare * pixel_weight * static_cast<double>(surface.num_points());
-    for (const Hypothesis& hypothesis : part_completion_.SolidsOver(surface, X_CT)) {
-      AddRefined(hypothesis, min_px, unclaimed, input);
-    }
-  }
+  AddOver(is_own_, candidates_[old].evidence.window, std::nullopt, unclaimed, input);
   Release(part);
   Select(old);
 }
 
 // [px] that see through candidates.
-int ModelSelection::NumSeenThrough(const std::vector<size_t>& indices, const Input& input) {
+int ModelSelection::TotalSeenThrough(const std::vector<size_t>& indices, const Input& input) {
   int num = 0;
   for (const size_t i : indices) {
-    num += declutter::NumSeenThrough(candidates_[i].hypothesis.solid, input.observation,
-                                     &input.buffers->evidence);
+    num += NumSeenThrough(candidates_[i].hypothesis.solid, input.observation,
+                          &input.buffers->evidence);
   }
   return num;
 }

@@ -20,8 +20,8 @@ bool ModelSelection::Exchange(const Input& input) {
   order_ = selected_;
   for (const size_t old : order_) {
     has_changed |= candidates_[old].is_selected &&
-                   (Split(old, input) || Divide(old, input) || CutLower(old, input) ||
-                    Reshape(old, input) || Unite(old, input));
+                   (SplitByArea(old, input) || SplitByCandidate(old, input) ||
+                    CutLower(old, input) || Reshape(old, input) || Unite(old, input));
   }
   return has_changed;
 }

@@ -113,6 +113,7 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   settler_.Settle(observed_.every_second_pixel(), &list.objects);
   LabelPixels(&list);
   Measure(&list);
+  CompleteBoxes(&list);
   DropUncertain(config_.min_confidence(), &list);
   return list;
 }
@@ -159,9 +160,8 @@ void ModelVerifier::Measure(ObjectList* list) {
   RemoveLabelled(list->labels, &unlabelled_);
   const Observation unlabelled{observation.image, unlabelled_, observation.normals,
                                observation.support};
-  const double noise_level = NoiseLevel(observation);
+  noise_level_ = NoiseLevel(observation, &deviations_);
   ends_.resize(num);
-  variances_.resize(num);
   for (size_t i = 0; i < num; ++i) {
     ObjectModel& object = list->objects[i];
     std::vector<Eigen::Vector3d>& points_O = buffers_.explained_O;
@@ -169,28 +169,33 @@ void ModelVerifier::Measure(ObjectList* list) {
     const bool is_top_seen = IsTopSeen(object.solid, points_O, evidence_[i].pixel_weight);
     object.confidence = static_cast<float>(
         Confidence(object, evidence_[i], NumUnexplained(object.solid, is_top_seen, unlabelled)));
-    if (object.solid.shape == Shape::kCylinder) {
-      object.confidence *= static_cast<float>(ShareOfSide(object.solid, points_O));
-    }
     ends_[i] = EndsOf(object.solid, object.evidence, evidence_[i], points_O,
                       observed_.every_second_pixel(), &buffers_.evidence);
     object.evidence = ExtentEvidence(ends_[i]);
+    if (object.solid.shape == Shape::kCylinder) {
+      object.confidence *= static_cast<float>(ShareOfSide(object.solid, points_O));
+      object.covariance = CovarianceOfCylinder(
+          object.solid,
+          VariancesOf(object.solid, ends_[i], object.num_explained, list->camera, noise_level_),
+          points_O, evidence_[i].pixel_weight, noise_level_);
+    }
     if (!IsSupported(object, evidence_[i], num_explaining_, config_.min_explained_px())) {
       object.confidence = 0;
     }
-    variances_[i] =
-        VariancesOf(object.solid, ends_[i], object.num_explained, list->camera, noise_level);
-    object.covariance = CovarianceOf(object.solid, ends_[i], variances_[i], points_O,
-                                     evidence_[i].pixel_weight, list->camera, noise_level);
   }
-  for (size_t i = 0; i < num; ++i) {
+}
+
+void ModelVerifier::CompleteBoxes(ObjectList* list) {
+  for (size_t i = 0; i < list->objects.size(); ++i) {
     ObjectModel& object = list->objects[i];
-    if (object.confidence < config_.min_confidence() || object.solid.shape != Shape::kBox) continue;
+    if (object.solid.shape != Shape::kBox || object.confidence < config_.min_confidence()) continue;
+    const Solid seen = object.solid;
+    EndVariances variances =
+        VariancesOf(seen, ends_[i], object.num_explained, list->camera, noise_level_);
     FindOthers(i, *list);
-    CompleteHiddenEnds(ends_[i], others_, observed_.every_second_pixel(), &object.solid,
-                       &variances_[i], &buffers_.evidence);
-    object.covariance =
-        CovarianceOf(object.solid, ends_[i], variances_[i], {}, 1, list->camera, noise_level);
+    CompleteHiddenEnds(ends_[i], others_, observed_.every_second_pixel(), &object.solid, &variances,
+                       &buffers_.evidence);
+    object.covariance = CovarianceOfBox(seen, ends_[i], variances, list->camera, noise_level_);
   }
 }
 

@@ -28,8 +28,10 @@ class ModelVerifier {
   void Select(const std::vector<Hypothesis>& hypotheses, const Observation& observation,
               std::vector<ObjectModel>* objects);
   void LabelPixels(ObjectList* list);
-  // How certain each object is, and its extents; completes those that are hidden.
+  // How certain each object is, and what its extents rest on.
   void Measure(ObjectList* list);
+  // The hidden ends of boxes that will be reported, and how well their extents are known.
+  void CompleteBoxes(ObjectList* list);
   void FindOthers(size_t index, const ObjectList& list);
 
   ModelVerifierConfig config_;
@@ -46,8 +48,9 @@ class ModelVerifier {
   std::vector<uint8_t> num_explaining_;  // objects, per pixel
   PixelGrid unlabelled_;
   std::vector<SolidEnds> ends_;  // of each object
-  std::vector<EndVariances> variances_;
-  std::vector<Solid> others_;  // CompleteHiddenEnds
+  double noise_level_ = 1;
+  std::vector<float> deviations_;  // NoiseLevel
+  std::vector<Solid> others_;      // CompleteHiddenEnds
 };
 
 }  // namespace declutter

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "modules/geometry/quantile.h"
 #include "modules/geometry/sensor_noise.h"
 
 namespace declutter {
@@ -12,10 +13,10 @@ namespace {
 
 constexpr int kBlock = 6;               // [px] over which the noise of a sensor is correlated
 constexpr int kStep = 2 * kBlock;       // [px] from one block to the next
-constexpr float kMaxDeviation = 4;      // [sigma] of pixels on the plane
-constexpr int kMinBlocks = 50;          // that tell a level to 10 %
-constexpr double kUsual = 1.04;         // [sigma] rms of the means of blocks: a Kinect's
-constexpr double kMin = 0.1, kMax = 3;  // beyond which the plane is none, or not measured at all
+constexpr float kMaxDeviation = 12;     // [sigma] of pixels on the plane
+constexpr size_t kMinBlocks = 50;       // that tell a level to 10 %
+constexpr double kUsual = 0.80;         // [sigma] median of the means of blocks: a Kinect's
+constexpr double kMin = 0.1, kMax = 5;  // the means of blocks reach kMaxDeviation at most
 
 // [sigma] mean deviation of a block from the plane; nothing unless all of it was measured on it.
 std::optional<float> MeanDeviation(const PixelGrid& grid, const Plane& plane, int u_begin,
@@ -40,20 +41,18 @@ std::optional<float> MeanDeviation(const PixelGrid& grid, const Plane& plane, in
 
 }  // namespace
 
-double NoiseLevel(const Observation& every_pixel) {
+double NoiseLevel(const Observation& every_pixel, std::vector<float>* deviations) {
   const PixelGrid& grid = every_pixel.grid;
-  double sum = 0;
-  int num = 0;
+  deviations->clear();
   for (int v = 0; v + kBlock <= grid.rows; v += kStep) {
     for (int u = 0; u + kBlock <= grid.columns; u += kStep) {
       const auto mean = MeanDeviation(grid, every_pixel.support, u, v);
-      if (!mean) continue;
-      sum += *mean * *mean;
-      ++num;
+      if (mean) deviations->push_back(std::abs(*mean));
     }
   }
-  if (num < kMinBlocks) return 1;
-  return std::clamp(std::sqrt(sum / num) / kUsual, kMin, kMax);
+  if (deviations->size() < kMinBlocks) return 1;
+  // What lies flat on the plane must not count.
+  return std::clamp(static_cast<double>(Quantile(deviations, 0.5f)) / kUsual, kMin, kMax);
 }
 
 }  // namespace declutter

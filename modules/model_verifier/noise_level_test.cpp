@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "modules/geometry/sensor_noise.h"
 
@@ -38,12 +39,23 @@ DepthImage NoisyPlane(double sigmas, int patch_px) {
 double LevelOf(const DepthImage& image) {
   ObservedImage observed;
   observed.Set(image, kSupport);
-  return NoiseLevel(observed.every_pixel());
+  std::vector<float> buffer;
+  return NoiseLevel(observed.every_pixel(), &buffer);
 }
 
-TEST(NoiseLevel, IsOneWhereNeighboursDeviateTogetherAsMuchAsThoseOfAKinect) {
-  EXPECT_NEAR(LevelOf(NoisyPlane(1, 6)), 1, 0.1);
-  EXPECT_NEAR(LevelOf(NoisyPlane(0.5, 6)), 0.5, 0.05);
+TEST(NoiseLevel, GrowsWithWhatNeighboursDeviateTogether) {
+  EXPECT_NEAR(LevelOf(NoisyPlane(0.5, 6)), 0.5, 0.08);
+  EXPECT_NEAR(LevelOf(NoisyPlane(1, 6)), 1, 0.15);
+  EXPECT_NEAR(LevelOf(NoisyPlane(3, 6)), 3, 0.45);
+}
+
+TEST(NoiseLevel, LeavesOutWhatLiesOnThePlane) {
+  DepthImage image = NoisyPlane(1, 6);
+  // 15 mm high, over a quarter of the image.
+  for (size_t i = 0; i < image.counts.size() / 4; ++i) {
+    image.counts[i] = static_cast<uint16_t>(image.counts[i] - 150);
+  }
+  EXPECT_LT(LevelOf(image), 1.6);
 }
 
 TEST(NoiseLevel, IsLowWhereEveryPixelDeviatesByItself) {

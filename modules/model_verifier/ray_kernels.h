@@ -57,7 +57,7 @@ struct RayCounts {
   int32_t* explained = nullptr;  // indices of pixels, in their order; room for all and kRayPadding
   int32_t* fits = nullptr;       // in kFitUnit, of each of them
   int32_t* hollow = nullptr;     // indices of pixels
-  int32_t* overhanging = nullptr;
+  int32_t* overhanging = nullptr;  // the same
 };
 
 // Sorts the pixels of a window into what they say of a solid.

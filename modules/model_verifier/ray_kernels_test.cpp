@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <hwy/targets.h>
+
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <random>
 #include <vector>
@@ -128,6 +131,7 @@ class StepByStep {
   }
 
   const RayCounts& counts() const { return counts_; }
+  const std::vector<int32_t>& overhanging() const { return overhanging_; }
   double fit() const { return fit_; }
 
  private:
@@ -155,9 +159,11 @@ class StepByStep {
     const double tolerance = std::max(0.005, 0.006 * z * z);
     const double height = 0.1 - z * ray.y();
     if (z_in == 0) {
-      counts_.num_overhanging += z > 0 && std::abs(p.z() - half.z()) <= 0.004 && side >= 0 &&
-                                 side <= 0.015 && height >= tolerance &&
-                                 (n_O.isZero() || n_O.z() > 0.85);
+      if (z > 0 && std::abs(p.z() - half.z()) <= 0.004 && side >= 0 && side <= 0.015 &&
+          height >= tolerance && (n_O.isZero() || n_O.z() > 0.85)) {
+        ++counts_.num_overhanging;
+        overhanging_.push_back(v * kColumns + u);
+      }
       return;
     }
     if (z == 0) {
@@ -209,6 +215,7 @@ class StepByStep {
   const Solid& solid_;
   const RandomImage& image_;
   RayCounts counts_;
+  std::vector<int32_t> overhanging_;
   double fit_ = 0;
 };
 
@@ -228,6 +235,11 @@ TEST_P(RayKernels, SortPixelsAsStepsAlongEachRayDo) {
   EXPECT_NEAR(sorted.counts.num_occluded, expected.num_occluded, kRounding);
   EXPECT_NEAR(sorted.counts.num_violating, expected.num_violating, kRounding);
   EXPECT_NEAR(sorted.counts.num_overhanging, expected.num_overhanging, kRounding);
+  std::vector<int32_t> different;
+  std::set_symmetric_difference(sorted.overhanging.begin(), sorted.overhanging.end(),
+                                reference.overhanging().begin(), reference.overhanging().end(),
+                                std::back_inserter(different));
+  EXPECT_LE(different.size(), static_cast<size_t>(kRounding));
   EXPECT_NEAR(sorted.counts.num_unknown, expected.num_unknown, kRounding);
   EXPECT_NEAR(static_cast<double>(sorted.counts.fit) / kFitUnit, reference.fit(), kRounding);
   EXPECT_GT(expected.num_explained, 100);

@@ -10,8 +10,8 @@ namespace declutter {
 namespace {
 
 // [px] that speak for a solid less those that speak against it, as its side may be another shape.
-double Support(const Solid& solid, const RayEvidence& evidence, const Observation& judging,
-               FitBuffers* buffers) {
+double NetFit(const Solid& solid, const RayEvidence& evidence, const Observation& judging,
+              FitBuffers* buffers) {
   return evidence.Balance() -
          MisfitShareOf(solid, evidence, judging, &buffers->explained_O) * evidence.Fit();
 }
@@ -32,9 +32,9 @@ bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Soli
   const double max_loss = kMaxLoss * evidence->num_explained();
   if (buffers->evidence.Balance() < evidence->Balance() - max_loss) return false;
   // It may have moved onto its neighbours' points.
-  const double support = Support(refined, buffers->evidence, judging, buffers);
-  if (support < buffers->evidence.Balance() &&
-      support < Support(*solid, *evidence, judging, buffers) - max_loss) {
+  const double net_fit = NetFit(refined, buffers->evidence, judging, buffers);
+  if (net_fit < buffers->evidence.Balance() &&
+      net_fit < NetFit(*solid, *evidence, judging, buffers) - max_loss) {
     return false;
   }
   *solid = refined;
@@ -48,10 +48,10 @@ bool RefineOrClimb(const Observation& fitted, const Observation& judging, Solid*
   if (is_fitted || solid->shape != Shape::kCylinder) return is_fitted;
   const Solid before = *solid;
   ClimbCylinder(judging, solid, evidence, &buffers->evidence);
-  const double support = Support(*solid, *evidence, judging, buffers);
-  if (support == evidence->Balance()) return false;
+  const double net_fit = NetFit(*solid, *evidence, judging, buffers);
+  if (net_fit == evidence->Balance()) return false;
   CastRays(before, judging, &buffers->evidence);
-  if (support < Support(before, buffers->evidence, judging, buffers)) {
+  if (net_fit < NetFit(before, buffers->evidence, judging, buffers)) {
     *solid = before;
     std::swap(*evidence, buffers->evidence);
   }

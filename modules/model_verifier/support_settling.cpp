@@ -20,11 +20,6 @@ double HalfExtent(const Solid& solid, const Plane& support) {
   return 0.5 * std::abs(up_O.z()) * solid.height() + up_O.head<2>().norm() * solid.radius();
 }
 
-// [m] of the lowest point of a solid above the support plane.
-double Bottom(const Solid& solid, const Plane& support) {
-  return support.Height(solid.X_CO.translation()) - HalfExtent(solid, support);
-}
-
 // Share of the upper solid's footprint that lies over the lower solid.
 double FootprintOver(const Solid& upper, const Solid& lower) {
   constexpr int kSteps = 5;
@@ -61,8 +56,12 @@ double TopOf(const Solid& solid, const Plane& support) {
   return support.Height(solid.X_CO.translation()) + HalfExtent(solid, support);
 }
 
+double BottomOf(const Solid& solid, const Plane& support) {
+  return support.Height(solid.X_CO.translation()) - HalfExtent(solid, support);
+}
+
 Solid ExtendedToSupport(const Solid& solid, const Plane& support) {
-  return Extended(solid, Bottom(solid, support), 0);
+  return Extended(solid, BottomOf(solid, support), 0);
 }
 
 void SupportSettler::FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper,
@@ -94,7 +93,7 @@ void SupportSettler::Settle(const Observation& observation, std::vector<ObjectMo
   };
   for (size_t i = 0; i < objects->size(); ++i) {
     ObjectModel& upper = (*objects)[i];
-    const double bottom = Bottom(upper.solid, support);
+    const double bottom = BottomOf(upper.solid, support);
     FindFloorsBelow(*objects, i, bottom, support);
     if (upper.evidence[2] != Evidence::kAssumed) {
       upper.supported_by = floors_.back().supported_by;

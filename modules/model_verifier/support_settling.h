@@ -35,8 +35,9 @@ class SupportSettler {
 // True for a solid whose z axis is the support normal.
 bool IsUpright(const Solid& solid, const Plane& support);
 
-// [m] of the highest point of a solid above the support plane.
+// [m] of the highest and the lowest point of a solid above the support plane.
 double TopOf(const Solid& solid, const Plane& support);
+double BottomOf(const Solid& solid, const Plane& support);
 
 // A solid lengthened along its z axis down to the support plane.
 Solid ExtendedToSupport(const Solid& solid, const Plane& support);

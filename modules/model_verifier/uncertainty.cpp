@@ -13,7 +13,7 @@ constexpr double kPixelsPerSample = 36;  // over which the noise of a sensor is 
 constexpr double kFaceBias = 0.5;        // [sigma] of a face, however many points it has
 constexpr double kEdgeError = 0.5;       // [px] of an edge
 constexpr double kSupportSd = 0.0007;    // [m] of the support plane at an object
-constexpr double kAssumedSd = 0.025;     // [m] of a hidden end
+constexpr double kAssumedSd = 0.025;     // [m] of an end that nothing bounds
 constexpr double kDepthBias = 0.5;       // [sigma] of all depths around an object
 constexpr double kSideSd = 0.0003;       // [m] of a cylinder's side, however little noise there is
 constexpr double kMaxSd = 0.1;           // [m]
@@ -89,11 +89,23 @@ double VarianceOfYaw(const Solid& solid, const SolidEnds& ends, double sigma,
   return smallest;
 }
 
+// Adds the error that all depths around an object have in common.
+void AddDepth(const Solid& solid, double sigma, SolidCovariance* covariance) {
+  const Eigen::Vector3d ray_O =
+      (solid.X_CO.linear().transpose() * solid.X_CO.translation()).normalized();
+  covariance->topLeftCorner<3, 3>() += Square(kDepthBias * sigma) * ray_O * ray_O.transpose();
+}
+
+// [m] of a measurement on a solid, along its ray.
+double SigmaAt(const Solid& solid, double noise_level) {
+  return noise_level * MeasurementSigma(solid.X_CO.translation().z());
+}
+
 }  // namespace
 
 EndVariances VariancesOf(const Solid& solid, const SolidEnds& ends, int num_explained,
                          const PinholeCamera& camera, double noise_level) {
-  const double sigma = noise_level * MeasurementSigma(solid.X_CO.translation().z());
+  const double sigma = SigmaAt(solid, noise_level);
   EndVariances variances;
   for (size_t axis = 0; axis < 3; ++axis) {
     for (size_t side = 0; side < 2; ++side) {
@@ -104,32 +116,36 @@ EndVariances VariancesOf(const Solid& solid, const SolidEnds& ends, int num_expl
   return variances;
 }
 
-SolidCovariance CovarianceOf(const Solid& solid, const SolidEnds& ends,
-                             const EndVariances& variances,
-                             const std::vector<Eigen::Vector3d>& points_O, int pixel_weight,
-                             const PinholeCamera& camera, double noise_level) {
-  const double sigma = noise_level * MeasurementSigma(solid.X_CO.translation().z());
+SolidCovariance CovarianceOfBox(const Solid& seen, const SolidEnds& ends,
+                                const EndVariances& variances, const PinholeCamera& camera,
+                                double noise_level) {
+  const double sigma = SigmaAt(seen, noise_level);
+  SolidCovariance covariance = SolidCovariance::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    AddEnds(axis, variances[static_cast<size_t>(axis)], &covariance);
+  }
+  covariance(6, 6) = VarianceOfYaw(seen, ends, sigma, camera);
+  AddDepth(seen, sigma, &covariance);
+  return covariance;
+}
+
+SolidCovariance CovarianceOfCylinder(const Solid& cylinder, const EndVariances& variances,
+                                     const std::vector<Eigen::Vector3d>& points_O, int pixel_weight,
+                                     double noise_level) {
+  const double sigma = SigmaAt(cylinder, noise_level);
   SolidCovariance covariance = SolidCovariance::Zero();
   AddEnds(2, variances[2], &covariance);
-  if (solid.shape == Shape::kBox) {
-    AddEnds(0, variances[0], &covariance);
-    AddEnds(1, variances[1], &covariance);
-    covariance(6, 6) = VarianceOfYaw(solid, ends, sigma, camera);
-  } else {
-    // Diameters are twice the radius.
-    Eigen::Matrix<double, 4, 3> J = Eigen::Matrix<double, 4, 3>::Zero();
-    J(0, 0) = J(1, 1) = 1;
-    J(2, 2) = J(3, 2) = 2;
-    const Eigen::Matrix4d side =
-        J * CovarianceOfSide(solid, points_O, pixel_weight, sigma) * J.transpose();
-    const int indices[4] = {0, 1, 3, 4};
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) covariance(indices[i], indices[j]) += side(i, j);
-    }
+  // Diameters are twice the radius.
+  Eigen::Matrix<double, 4, 3> J = Eigen::Matrix<double, 4, 3>::Zero();
+  J(0, 0) = J(1, 1) = 1;
+  J(2, 2) = J(3, 2) = 2;
+  const Eigen::Matrix4d side =
+      J * CovarianceOfSide(cylinder, points_O, pixel_weight, sigma) * J.transpose();
+  const int indices[4] = {0, 1, 3, 4};
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) covariance(indices[i], indices[j]) += side(i, j);
   }
-  const Eigen::Vector3d ray_O =
-      (solid.X_CO.linear().transpose() * solid.X_CO.translation()).normalized();
-  covariance.topLeftCorner<3, 3>() += Square(kDepthBias * sigma) * ray_O * ray_O.transpose();
+  AddDepth(cylinder, sigma, &covariance);
   return covariance;
 }
 
