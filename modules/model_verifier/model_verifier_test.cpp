@@ -354,6 +354,23 @@ TEST(RefineIfNoWorse, KeepsABoxOffTheTopOfItsNeighbour) {
   EXPECT_NEAR(solid.size.x(), 0.025, 0.003);
 }
 
+TEST(RefineOrClimb, BringsBackACylinderThatAFitMadeTooLarge) {
+  // The sensor bends what is seen of the side.
+  const RenderedScene scene = RenderText(
+      "object { cylinder { radius_m: 0.022 height_m: 0.102 } y_m: 0.699 }"
+      "object { box { size_x_m: 0.099 size_y_m: 0.04 size_z_m: 0.08 } x_m: -0.069 y_m: 0.64 }");
+  ObservedImage observed;
+  observed.Set(scene.depth, scene.table);
+  const Observation observation = observed.every_second_pixel();
+  Solid solid = Changed(scene.objects[0].solid, {0, 0, 0}, {0.003, 0.003, 0});
+  RayEvidence evidence = CastRays(solid, observation);
+  FitBuffers buffers;
+  EXPECT_GT(Refine(solid, observation, &buffers.points).radius(), 0.025);
+  EXPECT_TRUE(RefineOrClimb(observation, observation, &solid, &evidence, &buffers));
+  EXPECT_NEAR(solid.radius(), 0.022, 0.001);
+  EXPECT_EQ(evidence.Balance(), CastRays(solid, observation).Balance());
+}
+
 TEST(ClimbCylinder, FindsACylinderByItsTopWhereItsSideIsHidden) {
   const RenderedScene scene = RenderText(
       "object { cylinder { radius_m: 0.04 height_m: 0.12 } y_m: 0.7 }"

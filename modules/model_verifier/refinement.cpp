@@ -44,18 +44,24 @@ bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Soli
 
 bool RefineOrClimb(const Observation& fitted, const Observation& judging, Solid* solid,
                    RayEvidence* evidence, FitBuffers* buffers) {
+  // Of the explained pixels: more of free space inside, and a fit to the side has gone astray.
+  constexpr double kMaxAstray = 0.1;
   const bool is_fitted = RefineIfNoWorse(fitted, judging, solid, evidence, buffers);
-  if (is_fitted || solid->shape != Shape::kCylinder) return is_fitted;
+  const int num_against = evidence->num_violating + evidence->num_contradicting;
+  if (solid->shape != Shape::kCylinder ||
+      (is_fitted && num_against < kMaxAstray * evidence->num_explained())) {
+    return is_fitted;
+  }
   const Solid before = *solid;
   ClimbCylinder(judging, solid, evidence, &buffers->evidence);
   const double net_fit = NetFit(*solid, *evidence, judging, buffers);
-  if (net_fit == evidence->Balance()) return false;
+  if (net_fit == evidence->Balance()) return is_fitted;
   CastRays(before, judging, &buffers->evidence);
   if (net_fit < NetFit(before, buffers->evidence, judging, buffers)) {
     *solid = before;
     std::swap(*evidence, buffers->evidence);
   }
-  return false;
+  return is_fitted;
 }
 
 }  // namespace declutter

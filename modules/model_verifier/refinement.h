@@ -18,7 +18,8 @@ Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buff
 bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
                      RayEvidence* evidence, FitBuffers* buffers);
 
-// The same; a cylinder that the fit could not move climbs to the best place near it.
+// The same; a cylinder that the fit could not move, or moved into free space, climbs to the best
+// place near it.
 bool RefineOrClimb(const Observation& fitted, const Observation& judging, Solid* solid,
                    RayEvidence* evidence, FitBuffers* buffers);
 
