@@ -39,7 +39,9 @@ look_at() {
     read -r stat <"/proc/$1/stat"
     read -r -d '' status <"/proc/$1/status"
   } 2>/dev/null || true
-  # A program that is only asked for its description is no part of the graph; the guard only waits.
+  # A process that begins or ends has no arguments; a program that is only asked for its description
+  # is no part of the graph; the guard only waits.
+  ((${#args[@]} > 0)) || return 0
   [[ "$stat" != *"(launcher-guard)"* ]] || return 0
   [[ "$status" =~ VmHWM:[[:space:]]*([0-9]+) && " ${args[*]} " != *" --describe "* ]] || return 0
   peak_kb_of[$1]=${BASH_REMATCH[1]}
