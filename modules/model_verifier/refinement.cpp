@@ -25,17 +25,20 @@ Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buff
 
 bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
                      RayEvidence* evidence, FitBuffers* buffers) {
-  constexpr double kMaxLoss = 0.02;  // of the explained pixels: noise of the balance
+  constexpr double kMaxLoss = 0.02;     // of the explained pixels: noise of the balance
+  constexpr double kMinGrowth = 0.005;  // [m] beyond what blurred edges make
   const Solid refined = Refine(*solid, fitted, &buffers->points);
   if (refined.size == solid->size && refined.X_CO.matrix() == solid->X_CO.matrix()) return false;
   CastRays(refined, judging, &buffers->evidence);
   const double max_loss = kMaxLoss * evidence->num_explained();
   if (buffers->evidence.Balance() < evidence->Balance() - max_loss) return false;
-  // It may have moved onto its neighbours' points.
-  const double net_fit = NetFit(refined, buffers->evidence, judging, buffers);
-  if (net_fit < buffers->evidence.Balance() &&
-      net_fit < NetFit(*solid, *evidence, judging, buffers) - max_loss) {
-    return false;
+  // One that grew may have moved onto its neighbours' points.
+  if ((refined.size - solid->size).maxCoeff() > kMinGrowth) {
+    const double net_fit = NetFit(refined, buffers->evidence, judging, buffers);
+    if (net_fit < buffers->evidence.Balance() &&
+        net_fit < NetFit(*solid, *evidence, judging, buffers) - max_loss) {
+      return false;
+    }
   }
   *solid = refined;
   std::swap(*evidence, buffers->evidence);
