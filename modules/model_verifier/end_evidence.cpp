@@ -5,14 +5,14 @@
 
 #include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/support_settling.h"
+#include "modules/model_verifier/surface_fit.h"
 
 namespace declutter {
 namespace {
 
-constexpr double kBeyond = 0.010;   // [m] from an end to where its surroundings are probed
-constexpr int kProbes = 9;          // along each edge
-constexpr double kInset = 0.85;     // of the half size, up to which an edge is probed
-constexpr int kMinFacePoints = 60;  // [px] that place a face
+constexpr double kBeyond = 0.010;  // [m] from an end to where its surroundings are probed
+constexpr int kProbes = 9;         // along each edge
+constexpr double kInset = 0.85;    // of the half size, up to which an edge is probed
 
 struct Votes {
   int seen = 0;    // free space behind the edge
@@ -96,7 +96,7 @@ SolidEnds EndsOf(const Solid& solid, const std::array<Evidence, 3>& given,
       const bool was_assumed = given[a] == Evidence::kAssumed;
       if (is_standing && axis == 2 && side == 0) {
         end = was_assumed ? EndEvidence::kAssumed : EndEvidence::kSupport;
-      } else if (num_points[a][s] >= kMinFacePoints && FacesCamera(solid, camera_O, axis, sign)) {
+      } else if (num_points[a][s] >= kMinFitPoints && FacesCamera(solid, camera_O, axis, sign)) {
         end = EndEvidence::kFace;
       } else if ((is_standing && axis == 2) ||
                  (!was_assumed && IsEdgeSeen(solid, observation.image, axis, sign))) {

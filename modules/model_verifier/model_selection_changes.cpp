@@ -3,6 +3,7 @@
 
 #include "modules/geometry/plane.h"
 #include "modules/geometry/sensor_noise.h"
+#include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/free_space.h"
 #include "modules/model_verifier/hidden_middle.h"
 #include "modules/model_verifier/model_selection.h"
@@ -97,9 +98,7 @@ bool ModelSelection::CutLower(size_t old, const Input& input) {
   if (misfit < kMaxMisfit) return false;
   const auto step = StepOf(solid, points_O);
   if (!step) return false;
-  Solid upper = solid;
-  upper.size.z() = 0.5 * solid.height() - *step;
-  upper.X_CO = solid.X_CO * Eigen::Translation3d(0, 0, 0.5 * (0.5 * solid.height() + *step));
+  const Solid upper = Longer(solid, 2, -1, -(0.5 * solid.height() + *step));
   return ReplaceByParts({upper}, old, 1 - MisfitShare(misfit), input);
 }
 

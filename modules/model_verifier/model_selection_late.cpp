@@ -118,10 +118,8 @@ bool ModelSelection::IsOneColumn(const Candidate& lower, const Solid& upper, con
 // The part of an upright candidate above a floor [m] over the support plane, as another candidate.
 void ModelSelection::AddUpperPart(size_t index, double floor, const Input& input) {
   Hypothesis upper = candidates_[index].hypothesis;
-  const double top = TopOf(upper.solid, input.observation.support);
-  const double change = floor - (top - upper.solid.height());
-  upper.solid.X_CO = upper.solid.X_CO * Eigen::Translation3d(0, 0, 0.5 * change);
-  upper.solid.size.z() = top - floor;
+  upper.solid =
+      Longer(upper.solid, 2, -1, BottomOf(upper.solid, input.observation.support) - floor);
   AddRefined(upper, config_.min_explained_px(), input);
 }
 

@@ -44,6 +44,16 @@ ObjectList Verify(const RenderedScene& scene, const std::vector<Hypothesis>& hyp
   return ModelVerifier(ModelVerifierConfig()).Verify(frame, list);
 }
 
+// A rendered scene with what is observed of it.
+struct ObservedScene {
+  explicit ObservedScene(const std::string& text) : scene(RenderText(text)) {
+    observed.Set(scene.depth, scene.table);
+  }
+
+  RenderedScene scene;
+  ObservedImage observed;
+};
+
 Solid RefineOn(const RenderedScene& scene, const Solid& solid) {
   ObservedImage observed;
   observed.Set(scene.depth, scene.table);
@@ -322,13 +332,11 @@ TEST(Refine, LeavesASolidWithoutPointsAlone) {
 
 TEST(RefineIfNoWorse, KeepsASolidThatAFitWouldLeadAstray) {
   // Only a narrow strip of the cylinder's side is seen beside the box.
-  const RenderedScene scene = RenderText(
+  const ObservedScene seen(
       "object { cylinder { radius_m: 0.03 height_m: 0.12 } x_m: 0.03 y_m: 0.7 }"
       "object { box { size_x_m: 0.2 size_y_m: 0.05 size_z_m: 0.14 } x_m: -0.06 y_m: 0.6 }");
-  ObservedImage observed;
-  observed.Set(scene.depth, scene.table);
-  const Observation observation = observed.every_pixel();
-  const Solid truth = scene.objects[0].solid;
+  const Observation observation = seen.observed.every_pixel();
+  const Solid truth = seen.scene.objects[0].solid;
   Solid solid = truth;
   RayEvidence evidence = CastRays(solid, observation);
   const double before = evidence.Balance();
@@ -340,13 +348,11 @@ TEST(RefineIfNoWorse, KeepsASolidThatAFitWouldLeadAstray) {
 }
 
 TEST(RefineIfNoWorse, KeepsABoxOffTheTopOfItsNeighbour) {
-  const RenderedScene scene = RenderText(
+  const ObservedScene seen(
       "object { box { size_x_m: 0.025 size_y_m: 0.05 size_z_m: 0.11 } y_m: 0.65 }"
       "object { box { size_x_m: 0.025 size_y_m: 0.05 size_z_m: 0.11 } x_m: 0.026 y_m: 0.654 }");
-  ObservedImage observed;
-  observed.Set(scene.depth, scene.table);
-  const Observation observation = observed.every_second_pixel();
-  Solid solid = scene.objects[0].solid;
+  const Observation observation = seen.observed.every_second_pixel();
+  Solid solid = seen.scene.objects[0].solid;
   RayEvidence evidence = CastRays(solid, observation);
   FitBuffers buffers;
   EXPECT_GT(Refine(solid, observation, &buffers.points).size.x(), 0.045);
@@ -356,13 +362,11 @@ TEST(RefineIfNoWorse, KeepsABoxOffTheTopOfItsNeighbour) {
 
 TEST(RefineOrClimb, BringsBackACylinderThatAFitMadeTooLarge) {
   // The sensor bends what is seen of the side.
-  const RenderedScene scene = RenderText(
+  const ObservedScene seen(
       "object { cylinder { radius_m: 0.022 height_m: 0.102 } y_m: 0.699 }"
       "object { box { size_x_m: 0.099 size_y_m: 0.04 size_z_m: 0.08 } x_m: -0.069 y_m: 0.64 }");
-  ObservedImage observed;
-  observed.Set(scene.depth, scene.table);
-  const Observation observation = observed.every_second_pixel();
-  Solid solid = Changed(scene.objects[0].solid, {0, 0, 0}, {0.003, 0.003, 0});
+  const Observation observation = seen.observed.every_second_pixel();
+  Solid solid = Changed(seen.scene.objects[0].solid, {0, 0, 0}, {0.003, 0.003, 0});
   RayEvidence evidence = CastRays(solid, observation);
   FitBuffers buffers;
   EXPECT_GT(Refine(solid, observation, &buffers.points).radius(), 0.025);
@@ -372,13 +376,11 @@ TEST(RefineOrClimb, BringsBackACylinderThatAFitMadeTooLarge) {
 }
 
 TEST(ClimbCylinder, FindsACylinderByItsTopWhereItsSideIsHidden) {
-  const RenderedScene scene = RenderText(
+  const ObservedScene seen(
       "object { cylinder { radius_m: 0.04 height_m: 0.12 } y_m: 0.7 }"
       "object { box { size_x_m: 0.2 size_y_m: 0.05 size_z_m: 0.133 } y_m: 0.62 }");
-  ObservedImage observed;
-  observed.Set(scene.depth, scene.table);
-  const Observation observation = observed.every_pixel();
-  const Solid truth = scene.objects[0].solid;
+  const Observation observation = seen.observed.every_pixel();
+  const Solid truth = seen.scene.objects[0].solid;
   Solid solid = Changed(truth, {0.003, -0.002, 0}, {0.008, 0.008, 0});
   RayEvidence evidence = CastRays(solid, observation);
   RayEvidence buffer;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/ray_casting.h"
 
 namespace declutter {
@@ -38,14 +39,6 @@ double FootprintOver(const Solid& upper, const Solid& lower) {
   return static_cast<double>(num_over) / (kSteps * kSteps);
 }
 
-// The solid with its lower end moved to a height above the support plane.
-Solid Extended(Solid solid, double bottom, double new_bottom) {
-  const double change = bottom - new_bottom;
-  solid.size.z() += change;
-  solid.X_CO.translation() -= 0.5 * change * solid.X_CO.linear().col(2);
-  return solid;
-}
-
 }  // namespace
 
 bool IsUpright(const Solid& solid, const Plane& support) {
@@ -61,7 +54,7 @@ double BottomOf(const Solid& solid, const Plane& support) {
 }
 
 Solid ExtendedToSupport(const Solid& solid, const Plane& support) {
-  return Extended(solid, BottomOf(solid, support), 0);
+  return Longer(solid, 2, -1, BottomOf(solid, support));
 }
 
 void SupportSettler::FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper,
@@ -102,7 +95,7 @@ void SupportSettler::Settle(const Observation& observation, std::vector<ObjectMo
     CastRays(upper.solid, observation, &seen_);
     const double max_violating = seen_.num_violating + kMaxNewViolating * seen_.num_explained();
     for (const Floor& floor : floors_) {
-      const Solid extended = Extended(upper.solid, bottom, floor.height);
+      const Solid extended = Longer(upper.solid, 2, -1, bottom - floor.height);
       if (&floor != &floors_.back() && num_violating(extended) > max_violating) continue;
       upper.solid = extended;
       upper.supported_by = floor.supported_by;
