@@ -156,6 +156,17 @@ TEST(PlaneFilterTest, TopsOfLargeBoxesAreNoSupports) {
   EXPECT_GT(PartKept(tabletop, scene, kFirstObject, kLastLabel), 0.97);
 }
 
+TEST(PlaneFilterTest, TopsOfTallBoxesMakeNoFloorOfTheTable) {
+  const RenderedScene scene = RenderText(
+      "camera { height_m: 0.75 } "
+      "object { box { size_x_m: 0.35 size_y_m: 0.3 size_z_m: 0.2 } x_m: 0.1 y_m: 0.65 } "
+      "object { box { size_x_m: 0.2 size_y_m: 0.2 size_z_m: 0.32 } x_m: -0.2 y_m: 0.5 } "
+      "object { cylinder { radius_m: 0.1 height_m: 0.25 } x_m: 0.1 y_m: 0.65 on: 0 }");
+  const Tabletop tabletop = Filter(scene.depth);
+  ExpectMainSupport(tabletop, scene.table);
+  EXPECT_GT(PartKept(tabletop, scene, kFirstObject, kLastLabel), 0.97);
+}
+
 TEST(PlaneFilterTest, WorksForACameraThatLooksStraightDown) {
   const RenderedScene scene = RenderText(
       "camera { height_m: 0.9 pitch_rad: 1.57 } table { y_m: 0 } "

@@ -32,6 +32,9 @@ constexpr double kBehind = 0.03;
 
 constexpr double kMinWallAngle = 0.8;  // [rad] to the main support
 
+// Tops of objects, even several of one height, are closed over at most this area [m^2].
+constexpr double kMaxTopArea = 0.4 * 0.3;
+
 // Planes up to this angle are both level: they may be distorted differently [rad].
 constexpr double kMaxLevelAngle = 0.18;
 
@@ -100,13 +103,36 @@ void MarkWithOutline(const InverseDepth& grid, const PlaneCandidates& candidates
   }
 }
 
-// Whether another sizeable level plane is as far above plane k as a table above the floor.
-bool IsFloor(const Candidates& candidates, const std::vector<Carrier>& carriers, size_t k,
-             double min_pixels, const PlaneFilterConfig& config) {
+// [m^2] of the hull of a plane where nothing is seen under it: all of a table, whatever stands on
+// it, but not what lies between the tops of boxes of one height.
+double ClosedArea(const InverseDepth& grid, const InversePlane& plane, const Carrier& carrier) {
+  const double ray_area = (grid.ray_x[1] - grid.ray_x[0]) * (grid.ray_y[1] - grid.ray_y[0]);
+  double area = 0;
+  for (int v = 0; v < grid.height; ++v) {
+    for (int u = 0; u < grid.width; ++u) {
+      const float x = grid.ray_x[static_cast<size_t>(u)];
+      const float y = grid.ray_y[static_cast<size_t>(v)];
+      const double inverse_depth = plane.At(x, y);
+      if (inverse_depth <= 0 || grid.values[grid.Index(u, v)] <= 0) continue;
+      const double z = 1 / inverse_depth;
+      if (!carrier.prism.Contains(Eigen::Vector3d(x * z, y * z, z)) ||
+          carrier.plane.Height(PointOf(grid, u, v)) < -kBehind) {
+        continue;
+      }
+      area += z * z * z * ray_area / carrier.plane.d;
+    }
+  }
+  return area;
+}
+
+// Whether another level plane, too large for tops of objects, is as far above plane k as a table
+// above the floor.
+bool IsFloor(const InverseDepth& grid, const Candidates& candidates,
+             const std::vector<Carrier>& carriers, size_t k, const PlaneFilterConfig& config) {
   for (size_t j = 0; j < candidates.size(); ++j) {
-    if (candidates[j].num_pixels >= min_pixels &&
-        carriers[k].plane.d - carriers[j].plane.d > config.min_table_height_m() &&
-        Angle(carriers[k].plane.normal, carriers[j].plane.normal) < kMaxLevelAngle) {
+    if (carriers[k].plane.d - carriers[j].plane.d > config.min_table_height_m() &&
+        Angle(carriers[k].plane.normal, carriers[j].plane.normal) < kMaxLevelAngle &&
+        ClosedArea(grid, candidates[j].plane, carriers[j]) > kMaxTopArea) {
       return true;
     }
   }
@@ -207,7 +233,7 @@ size_t SceneRoles::MainSupport(const InverseDepth& grid, const PlaneCandidates& 
   size_t main = 0;
   double best_score = -1;
   for (size_t k = 0; k < candidates.planes.size(); ++k) {
-    const bool is_floor = IsFloor(candidates.planes, carriers_, k, MinSupportPixels(grid), config_);
+    const bool is_floor = IsFloor(grid, candidates.planes, carriers_, k, config_);
     const double score = Score(grid, carriers_[k], is_floor, config_);
     if (score <= best_score) continue;
     best_score = score;
