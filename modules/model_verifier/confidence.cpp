@@ -15,9 +15,9 @@ constexpr double kAssumedDepthFactor = 0.75;  // of the confidence where only on
 
 }  // namespace
 
-int NumUnexplained(const Solid& solid, bool is_top_seen, const Observation& unlabelled) {
+int NumUnexplained(const Solid& solid, bool is_top_seen, const Observation& unexplained) {
   return NumNear(is_top_seen ? solid : Longer(solid, 2, 1, kReachAbove), kUnexplainedReach,
-                 unlabelled);
+                 unexplained);
 }
 
 double Confidence(const ObjectModel& object, const RayEvidence& evidence, int num_unexplained) {

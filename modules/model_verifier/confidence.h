@@ -9,7 +9,7 @@ namespace declutter {
 // objects explain: where there are many, something else stands there than a box or an upright
 // cylinder. Of a solid whose top is not seen, what goes on above it counts too: a bowl is a
 // cylinder only near its rim.
-int NumUnexplained(const Solid& solid, bool is_top_seen, const Observation& unlabelled);
+int NumUnexplained(const Solid& solid, bool is_top_seen, const Observation& unexplained);
 
 // In [0, 1]: mean fit of the explained pixels, times their share of all pixels that speak for or
 // against the solid, unmeasured ones a little; less where its depth is a guess, 0 where it is too

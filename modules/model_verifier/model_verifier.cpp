@@ -1,7 +1,6 @@
 #include "modules/model_verifier/model_verifier.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "modules/geometry/sensor_noise.h"
@@ -33,69 +32,20 @@ double ShareOfSide(const Solid& cylinder, const std::vector<Eigen::Vector3d>& po
   return 1 - MisfitShare(std::sqrt(std::max(0.0, misfit * misfit - noise)));
 }
 
-// What is seen inside an open cylinder belongs to it when nothing else explains it.
-void LabelHollow(const std::vector<RayEvidence>& evidence, ObjectList* list) {
-  for (size_t i = 0; i < list->objects.size(); ++i) {
-    for (int32_t pixel : evidence[i].hollow) {
-      uint8_t& label = list->labels[static_cast<size_t>(pixel)];
-      if (label == 0) label = static_cast<uint8_t>(i + 1);
+// Takes the pixels of objects, and what is seen inside open cylinders, out of a grid of all pixels.
+void RemoveExplained(const std::vector<RayEvidence>& evidence, size_t num_objects,
+                     PixelGrid* grid) {
+  for (size_t i = 0; i < num_objects; ++i) {
+    for (const auto* pixels : {&evidence[i].explained, &evidence[i].hollow}) {
+      for (const int32_t pixel : *pixels) grid->z[grid->Index(pixel)] = 0;
     }
   }
-}
-
-// How many objects explain each pixel.
-void CountExplaining(const std::vector<RayEvidence>& evidence, size_t num_objects,
-                     size_t num_pixels, std::vector<uint8_t>* num) {
-  num->assign(num_pixels, 0);
-  for (size_t i = 0; i < num_objects; ++i) {
-    for (const int32_t pixel : evidence[i].explained) ++(*num)[static_cast<size_t>(pixel)];
-  }
-}
-
-// True when enough speaks for an object in its final place that speaks for no other, and it is not
-// mostly others that the rest speaks for; of one of which no extent is seen, twice as much must be
-// seen at all.
-bool IsSupported(const ObjectModel& object, const RayEvidence& evidence,
-                 const std::vector<uint8_t>& num_explaining, double min_px) {
-  constexpr double kMinOwnShare = 0.4;  // of what speaks for it
-  const double balance = FitAlone(evidence, num_explaining, 1) - evidence.num_violating -
-                         evidence.num_contradicting - NumOverhangingAlone(evidence, num_explaining);
-  const bool is_seen = std::any_of(object.evidence.begin(), object.evidence.end(),
-                                   [](Evidence extent) { return extent != Evidence::kAssumed; });
-  return balance >= std::max(min_px, kMinOwnShare * evidence.Fit()) &&
-         (is_seen || evidence.num_explained() >= 2 * min_px);
-}
-
-// Takes the pixels of objects out of a grid of all pixels.
-void RemoveLabelled(const std::vector<uint8_t>& labels, PixelGrid* grid) {
-  for (int v = 0; v < grid->rows; ++v) {
-    float* z = &grid->z[static_cast<size_t>(v) * grid->stride];
-    const uint8_t* label = &labels[static_cast<size_t>(v) * static_cast<size_t>(grid->columns)];
-    for (int u = 0; u < grid->columns; ++u) z[u] = label[u] == 0 ? z[u] : 0;
-  }
-}
-
-// Renumbers what is left after objects below the least confidence are gone.
-void DropUncertain(double min_confidence, ObjectList* list) {
-  std::array<uint8_t, 256> new_id = {};
-  size_t num_kept = 0;
-  for (const ObjectModel& object : list->objects) {
-    if (object.confidence < min_confidence) continue;
-    new_id[static_cast<size_t>(object.id)] = static_cast<uint8_t>(num_kept + 1);
-    list->objects[num_kept++] = object;
-  }
-  list->objects.resize(num_kept);
-  for (ObjectModel& object : list->objects) {
-    object.id = new_id[static_cast<size_t>(object.id)];
-    object.supported_by = new_id[static_cast<size_t>(object.supported_by)];
-  }
-  for (uint8_t& label : list->labels) label = new_id[label];
 }
 
 }  // namespace
 
 ModelVerifier::ModelVerifier(const ModelVerifierConfig& config)
-    : config_(config), selection_(config) {}
+    : config_(config), selection_(config), supported_objects_(config) {}
 
 ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& hypotheses) {
   ObjectList list;
@@ -111,10 +61,10 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   // Models are selected by every second pixel; what is selected is measured with all.
   Select(hypotheses.hypotheses, observed_.every_second_pixel(), &list.objects);
   settler_.Settle(observed_.every_second_pixel(), &list.objects);
-  LabelPixels(&list);
   Measure(&list);
+  DropDoubtful(&list.objects);
+  LabelPixels(&list);
   CompleteBoxes(&list);
-  DropUncertain(config_.min_confidence(), &list);
   return list;
 }
 
@@ -133,42 +83,29 @@ void ModelVerifier::Select(const std::vector<Hypothesis>& hypotheses,
   }
 }
 
-void ModelVerifier::LabelPixels(ObjectList* list) {
+void ModelVerifier::Measure(ObjectList* list) {
   const Observation observation = observed_.every_pixel();
   const size_t num = list->objects.size();
   if (evidence_.size() < num) evidence_.resize(num);
   for (size_t i = 0; i < num; ++i) {
-    ObjectModel& object = list->objects[i];
-    CastRays(object.solid, observation, &evidence_[i]);
-    object.num_explained = evidence_[i].num_explained();
-    object.num_occluded = evidence_[i].num_occluded;
-    object.num_violating = evidence_[i].num_violating;
-    object.id = static_cast<int32_t>(i + 1);
+    CastRays(list->objects[i].solid, observation, &evidence_[i]);
   }
-  of_objects_.clear();
-  for (size_t i = 0; i < num; ++i) of_objects_.push_back(&evidence_[i]);
-  owners_.Assign(of_objects_, observation.grid.num_pixels());
-  list->labels = owners_.owners();
-  LabelHollow(evidence_, list);
-}
-
-void ModelVerifier::Measure(ObjectList* list) {
-  const Observation observation = observed_.every_pixel();
-  const size_t num = list->objects.size();
-  CountExplaining(evidence_, num, list->labels.size(), &num_explaining_);
-  unlabelled_ = observation.grid;
-  RemoveLabelled(list->labels, &unlabelled_);
-  const Observation unlabelled{observation.image, unlabelled_, observation.normals,
-                               observation.support};
+  unexplained_ = observation.grid;
+  RemoveExplained(evidence_, num, &unexplained_);
+  const Observation unexplained{observation.image, unexplained_, observation.normals,
+                                observation.support};
   noise_level_ = NoiseLevel(observation, &deviations_);
   ends_.resize(num);
   for (size_t i = 0; i < num; ++i) {
     ObjectModel& object = list->objects[i];
+    object.num_explained = evidence_[i].num_explained();
+    object.num_occluded = evidence_[i].num_occluded;
+    object.num_violating = evidence_[i].num_violating;
     std::vector<Eigen::Vector3d>& points_O = buffers_.explained_O;
     FindExplainedPoints(object.solid, evidence_[i], observation, &points_O);
     const bool is_top_seen = IsTopSeen(object.solid, points_O, evidence_[i].pixel_weight);
     object.confidence = static_cast<float>(
-        Confidence(object, evidence_[i], NumUnexplained(object.solid, is_top_seen, unlabelled)));
+        Confidence(object, evidence_[i], NumUnexplained(object.solid, is_top_seen, unexplained)));
     ends_[i] = EndsOf(object.solid, object.evidence, evidence_[i], points_O,
                       observed_.every_second_pixel(), &buffers_.evidence);
     object.evidence = ExtentEvidence(ends_[i]);
@@ -179,8 +116,39 @@ void ModelVerifier::Measure(ObjectList* list) {
           VariancesOf(object.solid, ends_[i], object.num_explained, list->camera, noise_level_),
           points_O, evidence_[i].pixel_weight, noise_level_);
     }
-    if (!IsSupported(object, evidence_[i], num_explaining_, config_.min_explained_px())) {
-      object.confidence = 0;
+  }
+}
+
+void ModelVerifier::DropDoubtful(std::vector<ObjectModel>* objects) {
+  const std::vector<uint8_t>& is_kept =
+      supported_objects_.Find(*objects, evidence_, observed_.every_pixel().grid.num_pixels());
+  std::vector<int32_t> new_ids(objects->size() + 1);
+  size_t num_kept = 0;
+  for (size_t i = 0; i < objects->size(); ++i) {
+    if (!is_kept[i]) continue;
+    (*objects)[num_kept] = (*objects)[i];
+    ends_[num_kept] = ends_[i];
+    if (num_kept != i) std::swap(evidence_[num_kept], evidence_[i]);
+    new_ids[i + 1] = static_cast<int32_t>(++num_kept);
+  }
+  objects->resize(num_kept);
+  for (size_t i = 0; i < num_kept; ++i) {
+    ObjectModel& object = (*objects)[i];
+    object.id = static_cast<int32_t>(i + 1);
+    object.supported_by = new_ids[static_cast<size_t>(object.supported_by)];
+  }
+}
+
+void ModelVerifier::LabelPixels(ObjectList* list) {
+  of_objects_.clear();
+  for (size_t i = 0; i < list->objects.size(); ++i) of_objects_.push_back(&evidence_[i]);
+  owners_.Assign(of_objects_, observed_.every_pixel().grid.num_pixels());
+  list->labels = owners_.owners();
+  // What is seen inside an open cylinder belongs to it when nothing else explains it.
+  for (size_t i = 0; i < list->objects.size(); ++i) {
+    for (int32_t pixel : evidence_[i].hollow) {
+      uint8_t& label = list->labels[static_cast<size_t>(pixel)];
+      if (label == 0) label = static_cast<uint8_t>(i + 1);
     }
   }
 }
@@ -188,7 +156,7 @@ void ModelVerifier::Measure(ObjectList* list) {
 void ModelVerifier::CompleteBoxes(ObjectList* list) {
   for (size_t i = 0; i < list->objects.size(); ++i) {
     ObjectModel& object = list->objects[i];
-    if (object.solid.shape != Shape::kBox || object.confidence < config_.min_confidence()) continue;
+    if (object.solid.shape != Shape::kBox) continue;
     const Solid seen = object.solid;
     EndVariances variances =
         VariancesOf(seen, ends_[i], object.num_explained, list->camera, noise_level_);
@@ -199,12 +167,11 @@ void ModelVerifier::CompleteBoxes(ObjectList* list) {
   }
 }
 
-// Makes others_ the solids of all objects that will be reported but one.
+// Makes others_ the solids of all objects but one.
 void ModelVerifier::FindOthers(size_t index, const ObjectList& list) {
   others_.clear();
   for (size_t i = 0; i < list.objects.size(); ++i) {
-    if (i == index || list.objects[i].confidence < config_.min_confidence()) continue;
-    others_.push_back(list.objects[i].solid);
+    if (i != index) others_.push_back(list.objects[i].solid);
   }
 }
 

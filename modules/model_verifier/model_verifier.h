@@ -11,6 +11,7 @@
 #include "modules/model_verifier/pixel_owners.h"
 #include "modules/model_verifier/separate_fits.h"
 #include "modules/model_verifier/support_settling.h"
+#include "modules/model_verifier/supported_objects.h"
 
 namespace declutter {
 
@@ -27,10 +28,12 @@ class ModelVerifier {
   // The hypotheses that explain the image best, fitted to all pixels.
   void Select(const std::vector<Hypothesis>& hypotheses, const Observation& observation,
               std::vector<ObjectModel>* objects);
-  void LabelPixels(ObjectList* list);
   // How certain each object is, and what its extents rest on.
   void Measure(ObjectList* list);
-  // The hidden ends of boxes that will be reported, and how well their extents are known.
+  // Keeps only what is certain and supported, and numbers it.
+  void DropDoubtful(std::vector<ObjectModel>* objects);
+  void LabelPixels(ObjectList* list);
+  // The hidden ends of boxes, and how well their extents are known.
   void CompleteBoxes(ObjectList* list);
   void FindOthers(size_t index, const ObjectList& list);
 
@@ -38,6 +41,7 @@ class ModelVerifier {
   ModelSelection selection_;
   SeparateFits fits_;
   SupportSettler settler_;
+  SupportedObjects supported_objects_;
   // Room that the next frame uses again.
   ObservedImage observed_;
   FitBuffers buffers_;
@@ -45,8 +49,7 @@ class ModelVerifier {
   std::vector<Candidate*> selected_;
   std::vector<const RayEvidence*> of_objects_;
   PixelOwners owners_;
-  std::vector<uint8_t> num_explaining_;  // objects, per pixel
-  PixelGrid unlabelled_;
+  PixelGrid unexplained_;
   std::vector<SolidEnds> ends_;  // of each object
   double noise_level_ = 1;
   std::vector<float> deviations_;  // NoiseLevel
