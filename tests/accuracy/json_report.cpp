@@ -47,10 +47,9 @@ json SummaryJson(const Summary& summary) {
   result["by_visible_fraction"] = BinsJson(summary.by_visible_fraction);
   for (const auto& [name, errors] : summary.errors) {
     const Spread spread = SpreadOf(errors);
-    result["errors"][name] = {{"number", spread.num},
-                              {"median", spread.median},
-                              {"median_abs", spread.median_abs},
-                              {"p90_abs", spread.p90_abs}};
+    result["errors"][name] = {
+        {"number", spread.num}, {"median", spread.median},         {"mean", spread.mean},
+        {"sd", spread.sd},      {"median_abs", spread.median_abs}, {"p90_abs", spread.p90_abs}};
   }
   return result;
 }

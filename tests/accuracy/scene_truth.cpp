@@ -30,6 +30,12 @@ Scope ScopeOf(const std::string& scope) {
   throw std::runtime_error("unknown scope \"" + scope + "\"");
 }
 
+template <typename Number>
+std::optional<Number> NumberAt(const json& j, const char* path) {
+  const json::json_pointer pointer(path);
+  return j.contains(pointer) ? std::optional(j.at(pointer).get<Number>()) : std::nullopt;
+}
+
 std::optional<Eigen::Vector3d> SizeOf(const json& size) {
   if (size.contains("radius")) {
     const double diameter = 2 * size.at("radius").get<double>();
@@ -71,6 +77,7 @@ void ReadSize(const json& j, TrueObject* object) {
     object->size = object->solid->size;
   } else if (j.contains("product_size")) {
     object->size = SizeOf(j.at("product_size"));
+    object->size_tolerance_m = NumberAt<double>(j, "/product_size/tol");
   } else if (j.contains("known_size")) {
     object->size = SizeOf(j.at("known_size"));
   }
@@ -91,8 +98,8 @@ TrueObject ParseObject(const json& j) {
   }
   if (object.shape) ReadSize(j, &object);
   object.distance_m = DistanceOf(j);
-  const json::json_pointer visible("/truth/visible_fraction");
-  if (j.contains(visible)) object.visible_fraction = j.at(visible).get<double>();
+  object.num_px = NumberAt<int>(j, "/n_px");
+  object.visible_fraction = NumberAt<double>(j, "/truth/visible_fraction");
   return object;
 }
 

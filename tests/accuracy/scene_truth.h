@@ -28,8 +28,10 @@ struct TrueObject {
   std::vector<int> labels;              // its values in the label image; empty: known by its seed
   Eigen::Vector2i seed_px{-1, -1};      // a pixel well inside it
   std::optional<Eigen::Vector3d> size;  // [m] as Solid::size; axes of a box in no known order
-  std::optional<Solid> solid;           // exact pose and size, of rendered scenes
-  std::optional<double> distance_m;     // depth of its centre or of a point on it
+  std::optional<double> size_tolerance_m;  // how well size is known
+  std::optional<Solid> solid;              // exact pose and size, of rendered scenes
+  std::optional<double> distance_m;        // depth of its centre or of a point on it
+  std::optional<int> num_px;               // of it in the image
   std::optional<double> visible_fraction;  // visible pixels over those of the object alone
 };
 

@@ -11,7 +11,7 @@ TEST(ParseSceneTruth, ReadsACylinderWithLabelsAndProductSize) {
   const SceneTruth truth = ParseSceneTruth(nlohmann::json::parse(R"({
     "width": 640, "height": 480, "table_plane": {"normal_cam": [0, -0.6, -0.8], "d": 0.6},
     "objects": [{"id": 5, "labels": [50, 51], "product": "cup", "shape": "cylinder",
-                 "pose": "axis_vertical", "scope": "core", "seed_px": [395, 318],
+                 "pose": "axis_vertical", "scope": "core", "seed_px": [395, 318], "n_px": 2300,
                  "circle_fit": {"radius": 0.04, "axis_point_cam": [0.1, 0.1, 0.77]},
                  "product_size": {"radius": 0.036, "height": 0.098, "tol": 0.006}}]})"));
   ASSERT_EQ(truth.objects.size(), 1u);
@@ -22,6 +22,8 @@ TEST(ParseSceneTruth, ReadsACylinderWithLabelsAndProductSize) {
   EXPECT_EQ(cup.stance, Stance::kStanding);
   EXPECT_EQ(cup.labels, (std::vector<int>{50, 51}));
   EXPECT_EQ(*cup.size, Eigen::Vector3d(0.072, 0.072, 0.098));
+  EXPECT_EQ(*cup.size_tolerance_m, 0.006);
+  EXPECT_EQ(*cup.num_px, 2300);
   EXPECT_EQ(*cup.distance_m, 0.77);
   EXPECT_FALSE(cup.solid);
   EXPECT_NEAR(truth.up_C.z(), -0.8, 1e-12);

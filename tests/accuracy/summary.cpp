@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 
 #include "tests/accuracy/solid_comparison.h"
 
@@ -65,11 +66,25 @@ void AddExtent(ErrorTable* table, const std::string& name, double error_m, bool 
   if (observed) Add(table, name + " observed mm", kMmPerM * error_m);
 }
 
-void AddSizeErrors(const ObjectModel& model, const Eigen::Vector3d& true_size, bool has_exact_truth,
-                   ErrorTable* table) {
+// Whether at least 140 degrees of the side of a cylinder are seen: of those that face a camera, 170
+// on a table, this share.
+bool IsWellSeen(const TrueObject& object) {
+  constexpr int kMinPx = 1500;
+  constexpr double kMinFraction = 140.0 / 170;
+  return object.num_px.value_or(0) >= kMinPx && object.visible_fraction.value_or(0) >= kMinFraction;
+}
+
+void AddSizeErrors(const ObjectModel& model, const TrueObject& object, ErrorTable* table) {
+  constexpr double kWellKnown = 0.004;  // [m] tolerance of a product's size
   const Eigen::Vector3d& size = model.solid.size;
+  const Eigen::Vector3d& true_size = *object.size;
   if (model.solid.shape == Shape::kCylinder) {
-    Add(table, "cylinder radius mm", kMmPerM * 0.5 * (size.x() - true_size.x()));
+    const double error_mm = kMmPerM * 0.5 * (size.x() - true_size.x());
+    Add(table, "cylinder radius mm", error_mm);
+    if (IsWellSeen(object)) Add(table, "cylinder radius well seen mm", error_mm);
+    if (object.size_tolerance_m && *object.size_tolerance_m <= kWellKnown) {
+      Add(table, "cylinder radius well known mm", error_mm);
+    }
     AddExtent(table, "cylinder height", size.z() - true_size.z(), IsObserved(model, 2));
     return;
   }
@@ -82,7 +97,7 @@ void AddSizeErrors(const ObjectModel& model, const Eigen::Vector3d& true_size, b
     const double error = size[axis] - sorted[beside];
     AddExtent(table, kNames[beside], error, IsObserved(model, axis));
     AddExtent(table, "box extents", error, IsObserved(model, axis));
-    if (axis == 2 && !has_exact_truth) {
+    if (axis == 2 && !object.solid) {
       AddExtent(table, "box height", error, IsObserved(model, axis));
     }
   }
@@ -178,9 +193,7 @@ class Summarizer {
 
   void AddMatch(const TrueObject& object, const ObjectModel& model, double iou) {
     if (iou > 0) ious_.push_back(iou);
-    if (object.size) {
-      AddSizeErrors(model, *object.size, object.solid.has_value(), &summary_.errors);
-    }
+    if (object.size) AddSizeErrors(model, object, &summary_.errors);
     if (!object.solid) return;
     const SolidError error = CompareSolids(model.solid, *object.solid);
     AddPoseErrors(model, error, &summary_.errors);
@@ -241,7 +254,16 @@ Spread SpreadOf(const std::vector<double>& errors) {
   std::vector<double> absolute;
   for (const double error : errors) absolute.push_back(std::abs(error));
   std::sort(absolute.begin(), absolute.end());
-  return {errors.size(), Quantile(sorted, 0.5), Quantile(absolute, 0.5), Quantile(absolute, 0.9)};
+  Spread spread;
+  spread.num = errors.size();
+  const auto num = static_cast<double>(errors.size());
+  spread.median = Quantile(sorted, 0.5);
+  spread.mean = std::accumulate(errors.begin(), errors.end(), 0.0) / num;
+  for (const double error : errors) spread.sd += (error - spread.mean) * (error - spread.mean);
+  spread.sd = std::sqrt(spread.sd / std::max(1.0, num - 1));
+  spread.median_abs = Quantile(absolute, 0.5);
+  spread.p90_abs = Quantile(absolute, 0.9);
+  return spread;
 }
 
 Summary Summarize(const std::vector<ScoredFrame>& frames) {

@@ -35,6 +35,8 @@ struct GroupCount {
 struct Spread {
   size_t num = 0;
   double median = 0;      // signed
+  double mean = 0;        // signed
+  double sd = 0;          // standard deviation
   double median_abs = 0;  // of the absolute errors
   double p90_abs = 0;
 };

@@ -113,6 +113,32 @@ TEST(Summarize, CountsTrueValuesInsideTheIntervals) {
   EXPECT_EQ(Summarize({frame}).num_in_interval, 7);
 }
 
+TEST(Summarize, CountsRadiiApartThatAreWellSeenOrWellKnown) {
+  ScoredFrame frame = OneOfEach();
+  TrueObject& can = frame.truth.objects[1];
+  can.shape = Shape::kCylinder;
+  frame.score.objects[1].model = 1;
+  can.num_px = 1500;
+  can.visible_fraction = 0.8;
+  can.size_tolerance_m = 0.005;
+  Summary summary = Summarize({frame});
+  EXPECT_EQ(Errors(summary, "cylinder radius well seen mm"), nullptr);
+  EXPECT_EQ(Errors(summary, "cylinder radius well known mm"), nullptr);
+  can.visible_fraction = 0.9;
+  can.size_tolerance_m = 0.004;
+  summary = Summarize({frame});
+  ASSERT_NE(Errors(summary, "cylinder radius well seen mm"), nullptr);
+  ASSERT_NE(Errors(summary, "cylinder radius well known mm"), nullptr);
+  EXPECT_NEAR(Errors(summary, "cylinder radius well known mm")->at(0), 0, 1e-9);
+}
+
+TEST(SpreadOf, GivesMeanAndStandardDeviation) {
+  const Spread spread = SpreadOf({-1, 0, 4});
+  EXPECT_DOUBLE_EQ(spread.mean, 1);
+  EXPECT_NEAR(spread.sd, 2.6458, 1e-4);
+  EXPECT_EQ(SpreadOf({3}).sd, 0);
+}
+
 TEST(SpreadOf, GivesSignedAndAbsoluteQuantiles) {
   const Spread spread = SpreadOf({-4, -3, -2, 1, 10});
   EXPECT_DOUBLE_EQ(spread.median, -2);
