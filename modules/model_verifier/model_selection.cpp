@@ -81,17 +81,23 @@ std::optional<size_t> ModelSelection::AddRefined(const Hypothesis& hypothesis, d
   CastRays(hypothesis.solid, input.observation, &candidate.evidence);
   if (candidate.evidence.num_explained() < min_px) return std::nullopt;
   candidate.Begin(hypothesis);
-  if (config_.refine()) {
-    RefineOrClimb(fitted, input.observation, &candidate.hypothesis.solid, &candidate.evidence,
-                  input.buffers);
-  }
+  RefineCandidate(&candidate, fitted, input);
   if (!IsPlausible(candidate.evidence)) return std::nullopt;
-  candidate.is_refined = true;
-  candidate.misfit_share = MisfitShareOf(candidate.hypothesis.solid, candidate.evidence,
-                                         input.observation, &input.buffers->explained_O);
   ++num_candidates_;
   OnMoved(added);
   return added;
+}
+
+void ModelSelection::RefineCandidate(Candidate* candidate, const Observation& fitted,
+                                     const Input& input) const {
+  Solid* const solid = &candidate->hypothesis.solid;
+  candidate->is_refined = true;
+  candidate->misfit_share =
+      config_.refine()
+          ? RefineOrClimb(fitted, input.observation, solid, &candidate->evidence, input.buffers)
+                .misfit_share
+          : MisfitShareOf(*solid, candidate->evidence, input.observation,
+                          &input.buffers->explained_O);
 }
 
 // The candidate that explains the most pixels nobody else explains; nothing when it explains too
@@ -122,11 +128,7 @@ bool ModelSelection::RefineRivals(const Candidate& best, const Input& input) {
         !ShareSpace(candidate.hypothesis.solid, space, config_.max_shared_volume())) {
       continue;
     }
-    RefineOrClimb(input.observation, input.observation, &candidate.hypothesis.solid,
-                  &candidate.evidence, input.buffers);
-    candidate.is_refined = true;
-    candidate.misfit_share = MisfitShareOf(candidate.hypothesis.solid, candidate.evidence,
-                                           input.observation, &input.buffers->explained_O);
+    RefineCandidate(&candidate, input.observation, input);
     OnMoved(i);
     has_changed = true;
   }

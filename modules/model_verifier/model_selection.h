@@ -100,6 +100,7 @@ class ModelSelection {
   std::optional<size_t> AddRefined(const Hypothesis& hypothesis, double min_px, const Input& input);
   std::optional<size_t> AddRefined(const Hypothesis& hypothesis, double min_px,
                                    const Observation& fitted, const Input& input);
+  void RefineCandidate(Candidate* candidate, const Observation& fitted, const Input& input) const;
   std::optional<size_t> Best(const Input& input);
   bool RefineRivals(const Candidate& best, const Input& input);
   bool IsPlausible(const RayEvidence& evidence) const;

@@ -10,10 +10,13 @@ namespace declutter {
 namespace {
 
 // [px] that speak for a solid less those that speak against it, as its side may be another shape.
-double NetFit(const Solid& solid, const RayEvidence& evidence, const Observation& judging,
-              FitBuffers* buffers) {
-  return evidence.Balance() -
-         MisfitShareOf(solid, evidence, judging, &buffers->explained_O) * evidence.Fit();
+double NetFit(const RayEvidence& evidence, double misfit_share) {
+  return evidence.Balance() - misfit_share * evidence.Fit();
+}
+
+double MisfitShareOf(const Solid& solid, const RayEvidence& evidence, const Observation& judging,
+                     FitBuffers* buffers) {
+  return MisfitShareOf(solid, evidence, judging, &buffers->explained_O);
 }
 
 }  // namespace
@@ -23,48 +26,53 @@ Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buff
                                     : RefineCylinder(solid, observation, buffer);
 }
 
-bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
-                     RayEvidence* evidence, FitBuffers* buffers) {
-  constexpr double kMaxLoss = 0.02;     // of the explained pixels: noise of the balance
-  constexpr double kMinGrowth = 0.005;  // [m] beyond what blurred edges make
+FitResult RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
+                          RayEvidence* evidence, FitBuffers* buffers) {
+  constexpr double kMaxLoss = 0.02;  // of the explained pixels: noise of the balance
+  const auto stay = [&] {
+    return FitResult{false, MisfitShareOf(*solid, *evidence, judging, buffers)};
+  };
   const Solid refined = Refine(*solid, fitted, &buffers->points);
-  if (refined.size == solid->size && refined.X_CO.matrix() == solid->X_CO.matrix()) return false;
+  if (refined.size == solid->size && refined.X_CO.matrix() == solid->X_CO.matrix()) return stay();
   CastRays(refined, judging, &buffers->evidence);
   const double max_loss = kMaxLoss * evidence->num_explained();
-  if (buffers->evidence.Balance() < evidence->Balance() - max_loss) return false;
-  // One that grew may have moved onto its neighbours' points.
-  if ((refined.size - solid->size).maxCoeff() > kMinGrowth) {
-    const double net_fit = NetFit(refined, buffers->evidence, judging, buffers);
-    if (net_fit < buffers->evidence.Balance() &&
-        net_fit < NetFit(*solid, *evidence, judging, buffers) - max_loss) {
-      return false;
+  if (buffers->evidence.Balance() < evidence->Balance() - max_loss) return stay();
+  const double misfit_share = MisfitShareOf(refined, buffers->evidence, judging, buffers);
+  // The fit may have moved it onto its neighbours' points.
+  if (misfit_share > 0) {
+    const FitResult before = stay();
+    if (NetFit(buffers->evidence, misfit_share) <
+        NetFit(*evidence, before.misfit_share) - max_loss) {
+      return before;
     }
   }
   *solid = refined;
   std::swap(*evidence, buffers->evidence);
-  return true;
+  return {true, misfit_share};
 }
 
-bool RefineOrClimb(const Observation& fitted, const Observation& judging, Solid* solid,
-                   RayEvidence* evidence, FitBuffers* buffers) {
+FitResult RefineOrClimb(const Observation& fitted, const Observation& judging, Solid* solid,
+                        RayEvidence* evidence, FitBuffers* buffers) {
   // Of the explained pixels: more of free space inside, and a fit to the side has gone astray.
   constexpr double kMaxAstray = 0.1;
-  const bool is_fitted = RefineIfNoWorse(fitted, judging, solid, evidence, buffers);
+  const FitResult fit = RefineIfNoWorse(fitted, judging, solid, evidence, buffers);
   const int num_against = evidence->num_violating + evidence->num_contradicting;
   if (solid->shape != Shape::kCylinder ||
-      (is_fitted && num_against < kMaxAstray * evidence->num_explained())) {
-    return is_fitted;
+      (fit.has_moved && num_against < kMaxAstray * evidence->num_explained())) {
+    return fit;
   }
   const Solid before = *solid;
   ClimbCylinder(judging, solid, evidence, &buffers->evidence);
-  const double net_fit = NetFit(*solid, *evidence, judging, buffers);
-  if (net_fit == evidence->Balance()) return is_fitted;
-  CastRays(before, judging, &buffers->evidence);
-  if (net_fit < NetFit(before, buffers->evidence, judging, buffers)) {
-    *solid = before;
-    std::swap(*evidence, buffers->evidence);
+  const double misfit_share = MisfitShareOf(*solid, *evidence, judging, buffers);
+  if (misfit_share > 0) {
+    CastRays(before, judging, &buffers->evidence);
+    if (NetFit(*evidence, misfit_share) < NetFit(buffers->evidence, fit.misfit_share)) {
+      *solid = before;
+      std::swap(*evidence, buffers->evidence);
+      return fit;
+    }
   }
-  return is_fitted;
+  return {fit.has_moved, misfit_share};
 }
 
 }  // namespace declutter

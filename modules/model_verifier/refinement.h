@@ -12,15 +12,21 @@ namespace declutter {
 // percentile would cut off. Parameters without enough points keep their value.
 Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buffer);
 
+// What a fit made of a solid.
+struct FitResult {
+  bool has_moved = false;   // by the fit; by a climb does not count
+  double misfit_share = 0;  // of what speaks for the solid in its place, see MisfitShareOf
+};
+
 // Refines a solid on one observation where that does not lose what speaks for it on another: with
 // few points, or little of a cylinder's arc, a fit can go astray. evidence is what was observed of
-// the solid on the second, and is renewed with it. False when the solid stayed as it was.
-bool RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
-                     RayEvidence* evidence, FitBuffers* buffers);
+// the solid on the second, and is renewed with it.
+FitResult RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
+                          RayEvidence* evidence, FitBuffers* buffers);
 
 // The same; a cylinder that the fit could not move, or moved into free space, climbs to the best
 // place near it.
-bool RefineOrClimb(const Observation& fitted, const Observation& judging, Solid* solid,
-                   RayEvidence* evidence, FitBuffers* buffers);
+FitResult RefineOrClimb(const Observation& fitted, const Observation& judging, Solid* solid,
+                        RayEvidence* evidence, FitBuffers* buffers);
 
 }  // namespace declutter

@@ -41,10 +41,10 @@ void SeparateFits::Run(const ObservedImage& observed, const std::vector<Candidat
       const PixelWindow window = candidate.evidence.window;
       const Solid before = *solid;
       Claim(i, window);
-      const bool is_fitted =
+      const FitResult result =
           fit == 0 ? RefineOrClimb(apart, half, solid, &candidate.evidence, buffers)
                    : RefineIfNoWorse(apart, half, solid, &candidate.evidence, buffers);
-      is_moving_[i] = is_fitted && Change(before, *solid) > kRest;
+      is_moving_[i] = result.has_moved && Change(before, *solid) > kRest;
       for (const ptrdiff_t pixel : claimed_) grid_.z[static_cast<size_t>(pixel)] *= -1;
     }
   }
