@@ -12,8 +12,10 @@
 namespace declutter {
 namespace {
 
-constexpr int kRimPixels = 4;          // [px] of the image that normals are blurred over
-constexpr float kMaxRimStep = 0.003f;  // [m] in height between a rim and the face inside
+constexpr int kRimPixels = 4;  // [px] of the image that normals are blurred over
+// In height between a rim and the face inside: [m], and where noise makes more, sigma.
+constexpr float kMaxRimStep = 0.003f;
+constexpr float kMaxRimSigmas = 2;
 
 template <size_t kNum>
 std::array<Eigen::Vector2f, kNum> EveryDegree() {
@@ -98,6 +100,7 @@ void TopPatchFinder::DrawPoints(const std::vector<TablePoint>& points, int thinn
     labels_.assign(num_pixels, -1);
     heights_.assign(num_pixels, 0);
     height_inside_.assign(num_pixels, 0);
+    max_rim_step_.assign(num_pixels, 0);
   }
   pixels_.clear();
   for (const TablePoint& point : points) {
@@ -106,6 +109,7 @@ void TopPatchFinder::DrawPoints(const std::vector<TablePoint>& points, int thinn
     is_top_[pixel] = point.is_top();
     is_point_[pixel] = 1;
     heights_[pixel] = point.p_T.z();
+    max_rim_step_[pixel] = std::max(kMaxRimStep, kMaxRimSigmas * point.sigma);
   }
 }
 
@@ -151,7 +155,8 @@ void TopPatchFinder::GrowOverRims() {
     for (const size_t i : candidates_) {
       if (IsAtRim(i)) continue;
       for (const size_t j : {i - 1, i + 1, i - row, i + row}) {
-        if (labels_[j] < 0 || std::abs(heights_[i] - height_inside_[j]) > kMaxRimStep) continue;
+        if (labels_[j] < 0 || std::abs(heights_[i] - height_inside_[j]) > max_rim_step_[i])
+          continue;
         grown_.emplace_back(i, j);
         break;
       }

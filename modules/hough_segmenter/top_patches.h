@@ -57,6 +57,7 @@ class TopPatchFinder {
   std::vector<int32_t> labels_;
   std::vector<float> heights_;        // [m] of points
   std::vector<float> height_inside_;  // [m] of labelled pixels: that of the face inside the rim
+  std::vector<float> max_rim_step_;   // [m] of points: in height from the face inside
   std::vector<size_t> pixels_;        // of the points
   ComponentRuns components_;
   HeightBands bands_;

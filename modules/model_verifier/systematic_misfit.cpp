@@ -16,6 +16,14 @@ constexpr size_t kNumStrips = 6;
 constexpr int kMinPoints = 3;  // of a strip that counts
 constexpr int kMinStrips = 4;
 
+// [m] of a point from the side of a cylinder; nothing for one around its ends or nearer to them.
+std::optional<double> DistanceFromSide(const Solid& cylinder, const Eigen::Vector3d& p_O) {
+  const double distance = p_O.head<2>().norm() - cylinder.radius();
+  const double from_end = 0.5 * cylinder.height() - std::abs(p_O.z());
+  if (from_end < std::max(kEdgeMargin, std::abs(distance))) return std::nullopt;
+  return distance;
+}
+
 struct SidePoint {
   double along;     // [m]
   double distance;  // [m] from the side
@@ -69,11 +77,12 @@ Misfit MisfitOf(const std::vector<Eigen::Vector3d>& points_O, const F& side_poin
 Misfit OfCylinder(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O,
                   const Eigen::Vector2d& sight_O) {
   return MisfitOf(points_O, [&](const Eigen::Vector3d& p) -> std::optional<SidePoint> {
+    const auto distance = DistanceFromSide(solid, p);
+    if (!distance) return std::nullopt;
     const Eigen::Vector2d q = p.head<2>();
-    if (std::abs(p.z()) > 0.5 * solid.height() - kEdgeMargin) return std::nullopt;
     const double angle = std::atan2(sight_O.x() * q.y() - sight_O.y() * q.x(), sight_O.dot(q));
     if (std::abs(angle) >= kOutline) return std::nullopt;
-    return SidePoint{angle * solid.radius(), q.norm() - solid.radius()};
+    return SidePoint{angle * solid.radius(), *distance};
   });
 }
 
@@ -106,10 +115,9 @@ double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& 
 double LayerMisfit(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
   return MisfitOf(points_O,
                   [&](const Eigen::Vector3d& p) -> std::optional<SidePoint> {
-                    if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) {
-                      return std::nullopt;
-                    }
-                    return SidePoint{p.z(), p.head<2>().norm() - cylinder.radius()};
+                    const auto distance = DistanceFromSide(cylinder, p);
+                    if (!distance) return std::nullopt;
+                    return SidePoint{p.z(), *distance};
                   })
       .rms;
 }
@@ -125,12 +133,12 @@ std::optional<double> StepOf(const Solid& cylinder, const std::vector<Eigen::Vec
   double total = 0;
   int num_total = 0;
   for (const Eigen::Vector3d& p : points_O) {
-    const double place = (p.z() - low) / layer;
-    if (place < 0 || place >= kNumLayers) continue;
-    const double distance = p.head<2>().norm() - cylinder.radius();
-    sums[static_cast<size_t>(place)] += distance;
-    ++nums[static_cast<size_t>(place)];
-    total += distance;
+    const auto distance = DistanceFromSide(cylinder, p);
+    if (!distance) continue;
+    const auto i = std::min<size_t>(kNumLayers - 1, static_cast<size_t>((p.z() - low) / layer));
+    sums[i] += *distance;
+    ++nums[i];
+    total += *distance;
     ++num_total;
   }
   std::optional<double> step;
@@ -173,13 +181,13 @@ Taper TaperOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_
   double low = 1;
   double high = -1;
   for (const Eigen::Vector3d& p : points_O) {
-    if (std::abs(p.z()) > 0.5 * cylinder.height() - kEdgeMargin) continue;
-    const double d = p.head<2>().norm() - cylinder.radius();
+    const auto d = DistanceFromSide(cylinder, p);
+    if (!d) continue;
     ++num;
     sum_z += p.z();
-    sum_d += d;
+    sum_d += *d;
     sum_zz += p.z() * p.z();
-    sum_zd += p.z() * d;
+    sum_zd += p.z() * *d;
     low = std::min(low, p.z());
     high = std::max(high, p.z());
   }
