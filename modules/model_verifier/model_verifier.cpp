@@ -126,20 +126,20 @@ void ModelVerifier::Measure(ObjectList* list) {
 void ModelVerifier::DropDoubtful(std::vector<ObjectModel>* objects) {
   const std::vector<uint8_t>& is_kept =
       supported_objects_.Find(*objects, evidence_, observed_.every_pixel().grid.num_pixels());
-  std::vector<int32_t> new_ids(objects->size() + 1);
+  new_ids_.assign(objects->size() + 1, 0);
   size_t num_kept = 0;
   for (size_t i = 0; i < objects->size(); ++i) {
     if (!is_kept[i]) continue;
     (*objects)[num_kept] = (*objects)[i];
     ends_[num_kept] = ends_[i];
     if (num_kept != i) std::swap(evidence_[num_kept], evidence_[i]);
-    new_ids[i + 1] = static_cast<int32_t>(++num_kept);
+    new_ids_[i + 1] = static_cast<int32_t>(++num_kept);
   }
   objects->resize(num_kept);
   for (size_t i = 0; i < num_kept; ++i) {
     ObjectModel& object = (*objects)[i];
     object.id = static_cast<int32_t>(i + 1);
-    object.supported_by = new_ids[static_cast<size_t>(object.supported_by)];
+    object.supported_by = new_ids_[static_cast<size_t>(object.supported_by)];
   }
 }
 

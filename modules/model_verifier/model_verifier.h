@@ -50,7 +50,8 @@ class ModelVerifier {
   std::vector<const RayEvidence*> of_objects_;
   PixelOwners owners_;
   PixelGrid unexplained_;
-  std::vector<SolidEnds> ends_;  // of each object
+  std::vector<int32_t> new_ids_;  // of objects in place of their old ones; 0: none
+  std::vector<SolidEnds> ends_;   // of each object
   double noise_level_ = 1;
   std::vector<float> deviations_;  // NoiseLevel
   std::vector<Solid> others_;      // CompleteHiddenEnds
