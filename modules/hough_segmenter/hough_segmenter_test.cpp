@@ -79,6 +79,19 @@ TEST(HoughSegmenter, ProposesBothOfTwoTouchingBoxes) {
   EXPECT_LT(SmallestError(list, scene.objects[1].solid), 0.012);
 }
 
+TEST(HoughSegmenter, ProposesADiscSeenFromFarAbove) {
+  const RenderedScene scene = RenderText(
+      "camera { width: 320 height: 240 fx: 285 fy: 285 cx: 159.5 cy: 119.5 height_m: 1.5 "
+      "pitch_rad: 1.57 } table { y_m: 0 } "
+      "object { cylinder { radius_m: 0.05 height_m: 0.15 } y_m: 0.1 }");
+  double radius = 0;
+  for (const Hypothesis& hypothesis : Segment(scene, "default").hypotheses) {
+    if (hypothesis.solid.shape != Shape::kCylinder) continue;
+    radius = std::max(radius, hypothesis.solid.radius());
+  }
+  EXPECT_NEAR(radius, 0.05, 0.0015);
+}
+
 TEST(HoughSegmenter, LeavesOpenHowFarAHiddenBottomReaches) {
   const RenderedScene scene = RenderText(
       "object { box { size_x_m: 0.2 size_y_m: 0.2 size_z_m: 0.06 } y_m: 0.65 }"

@@ -77,6 +77,15 @@ TEST(StepOf, IsWhereAWiderCylinderBegins) {
   EXPECT_FALSE(StepOf(cylinder, {}));
 }
 
+TEST(SystematicMisfit, LeavesOutTheTopWhereNoiseLowersIt) {
+  std::vector<Eigen::Vector3d> points_O = RoundSide();
+  for (double x = -0.02; x <= 0.02; x += 0.002) points_O.emplace_back(x, 0, 0.5 * kHeight - 0.008);
+  const Solid cylinder = SolidOf(Shape::kCylinder, {2 * kRadius, 2 * kRadius, kHeight});
+  EXPECT_LT(SystematicMisfit(cylinder, points_O), 1e-6);
+  EXPECT_LT(LayerMisfit(cylinder, points_O), 1e-6);
+  EXPECT_NEAR(TaperOf(cylinder, points_O, 0.001).slope, 0, 1e-6);
+}
+
 TEST(MisfitShare, IsNothingForNoiseAndBoundedForEverything) {
   EXPECT_EQ(MisfitShare(0.3), 0);
   EXPECT_GT(MisfitShare(0.8), 0.1);
