@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/shared_space.h"
 #include "modules/model_verifier/systematic_misfit.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/column.h"
@@ -9,7 +10,6 @@
 #include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/hidden_ends.h"
 #include "modules/model_verifier/noise_level.h"
-#include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/systematic_misfit.h"
 #include "modules/model_verifier/uncertainty.h"
 

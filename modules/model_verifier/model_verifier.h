@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "modules/geometry/depth_image.h"
@@ -28,7 +29,7 @@ class ModelVerifier {
   // The hypotheses that explain the image best, fitted to all pixels.
   void Select(const std::vector<Hypothesis>& hypotheses, const Observation& observation,
               std::vector<ObjectModel>* objects);
-  // How certain each object is, and what its extents rest on.
+  // How certain each object is, what its extents rest on, and how well a cylinder is known.
   void Measure(ObjectList* list);
   // Keeps only what is certain and supported, and numbers it.
   void DropDoubtful(std::vector<ObjectModel>* objects);

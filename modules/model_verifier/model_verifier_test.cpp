@@ -370,7 +370,7 @@ TEST(RefineOrClimb, BringsBackACylinderThatAFitMadeTooLarge) {
   RayEvidence evidence = CastRays(solid, observation);
   FitBuffers buffers;
   EXPECT_GT(Refine(solid, observation, &buffers.points).radius(), 0.025);
-  EXPECT_TRUE(RefineOrClimb(observation, observation, &solid, &evidence, &buffers).has_moved);
+  EXPECT_TRUE(RefineOrClimb(observation, observation, &solid, &evidence, &buffers).is_fitted);
   EXPECT_NEAR(solid.radius(), 0.022, 0.001);
   EXPECT_EQ(evidence.Balance(), CastRays(solid, observation).Balance());
 }

@@ -58,7 +58,7 @@ FitResult RefineOrClimb(const Observation& fitted, const Observation& judging, S
   const FitResult fit = RefineIfNoWorse(fitted, judging, solid, evidence, buffers);
   const int num_against = evidence->num_violating + evidence->num_contradicting;
   if (solid->shape != Shape::kCylinder ||
-      (fit.has_moved && num_against < kMaxAstray * evidence->num_explained())) {
+      (fit.is_fitted && num_against < kMaxAstray * evidence->num_explained())) {
     return fit;
   }
   const Solid before = *solid;
@@ -72,7 +72,7 @@ FitResult RefineOrClimb(const Observation& fitted, const Observation& judging, S
       return fit;
     }
   }
-  return {fit.has_moved, misfit_share};
+  return {fit.is_fitted, misfit_share};
 }
 
 }  // namespace declutter

@@ -14,7 +14,7 @@ Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buff
 
 // What a fit made of a solid.
 struct FitResult {
-  bool has_moved = false;   // by the fit; by a climb does not count
+  bool is_fitted = false;   // whether a fit has moved it; a climb is none
   double misfit_share = 0;  // of what speaks for the solid in its place, see MisfitShareOf
 };
 

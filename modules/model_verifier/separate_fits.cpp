@@ -44,7 +44,7 @@ void SeparateFits::Run(const ObservedImage& observed, const std::vector<Candidat
       const FitResult result =
           fit == 0 ? RefineOrClimb(apart, half, solid, &candidate.evidence, buffers)
                    : RefineIfNoWorse(apart, half, solid, &candidate.evidence, buffers);
-      is_moving_[i] = result.has_moved && Change(before, *solid) > kRest;
+      is_moving_[i] = result.is_fitted && Change(before, *solid) > kRest;
       for (const ptrdiff_t pixel : claimed_) grid_.z[static_cast<size_t>(pixel)] *= -1;
     }
   }

@@ -11,15 +11,20 @@ double OwnBalance(const RayEvidence& evidence, const std::vector<uint8_t>& num_e
          evidence.num_contradicting - NumOverhangingAlone(evidence, num_explaining);
 }
 
+// True when enough is seen of an object, whatever else is there: of one of which no extent is seen,
+// twice as much.
+bool IsSeen(const ObjectModel& object, const RayEvidence& evidence, double min_px) {
+  const bool has_extent = std::any_of(object.evidence.begin(), object.evidence.end(),
+                                      [](Evidence extent) { return extent != Evidence::kAssumed; });
+  return evidence.Fit() - evidence.num_violating - evidence.num_contradicting >= min_px &&
+         (has_extent || evidence.num_explained() >= 2 * min_px);
+}
+
 // True when so much speaks for an object alone that it is not mostly others that the rest speaks
-// for; of one of which no extent is seen, twice as much must be seen at all.
-bool IsSupported(const ObjectModel& object, const RayEvidence& evidence, double own_balance,
-                 double min_px) {
+// for.
+bool IsSupported(const RayEvidence& evidence, double own_balance, double min_px) {
   constexpr double kMinOwnShare = 0.4;  // of what speaks for it
-  const bool is_seen = std::any_of(object.evidence.begin(), object.evidence.end(),
-                                   [](Evidence extent) { return extent != Evidence::kAssumed; });
-  return own_balance >= std::max(min_px, kMinOwnShare * evidence.Fit()) &&
-         (is_seen || evidence.num_explained() >= 2 * min_px);
+  return own_balance >= std::max(min_px, kMinOwnShare * evidence.Fit());
 }
 
 }  // namespace
@@ -30,14 +35,18 @@ const std::vector<uint8_t>& SupportedObjects::Find(const std::vector<ObjectModel
   is_kept_.assign(objects.size(), 0);
   num_explaining_.assign(static_cast<size_t>(num_pixels), 0);
   for (size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].confidence < config_.min_confidence()) continue;
+    if (objects[i].confidence < config_.min_confidence() ||
+        !IsSeen(objects[i], evidence[i], config_.min_explained_px())) {
+      continue;
+    }
     is_kept_[i] = 1;
     for (const int32_t pixel : evidence[i].explained) {
       ++num_explaining_[static_cast<size_t>(pixel)];
     }
   }
-  // One at a time: what it shared speaks for the others alone when it is gone.
-  while (const auto least = LeastSupported(objects, evidence)) {
+  // One at a time: what it shared speaks for the others alone when it is gone, or against them
+  // where their top goes on there.
+  while (const auto least = LeastSupported(evidence)) {
     is_kept_[*least] = 0;
     for (const int32_t pixel : evidence[*least].explained) {
       --num_explaining_[static_cast<size_t>(pixel)];
@@ -46,15 +55,16 @@ const std::vector<uint8_t>& SupportedObjects::Find(const std::vector<ObjectModel
   return is_kept_;
 }
 
-// Of the objects that are kept and not supported, the one of which the least speaks for it alone.
+// Of the objects that are kept and not supported, the one of which the least share speaks for it
+// alone.
 std::optional<size_t> SupportedObjects::LeastSupported(
-    const std::vector<ObjectModel>& objects, const std::vector<RayEvidence>& evidence) const {
+    const std::vector<RayEvidence>& evidence) const {
   std::optional<size_t> least;
   double least_share = 0;
-  for (size_t i = 0; i < objects.size(); ++i) {
+  for (size_t i = 0; i < is_kept_.size(); ++i) {
     if (!is_kept_[i]) continue;
     const double own_balance = OwnBalance(evidence[i], num_explaining_);
-    if (IsSupported(objects[i], evidence[i], own_balance, config_.min_explained_px())) continue;
+    if (IsSupported(evidence[i], own_balance, config_.min_explained_px())) continue;
     const double share = own_balance / evidence[i].Fit();
     if (least && share >= least_share) continue;
     least = i;

@@ -30,7 +30,7 @@ std::vector<uint8_t> Kept(const RenderedScene& scene, const std::vector<Solid>& 
       .Find(objects, evidence, observation.grid.num_pixels());
 }
 
-TEST(SupportedObjects, OfTwoInOnePlaceKeepsTheOneForWhichMoreSpeaksAlone) {
+TEST(SupportedObjects, OfTwoInOnePlaceKeepsTheOneOfWhichALargerShareSpeaksAlone) {
   const RenderedScene scene = Render(ParseScene(kBox, "scene"), 1);
   const Solid& whole = scene.objects[0].solid;
   const Solid part = Longer(whole, 1, 1, -0.03);  // the same front

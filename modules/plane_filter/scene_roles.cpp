@@ -103,19 +103,19 @@ void MarkWithOutline(const InverseDepth& grid, const PlaneCandidates& candidates
   }
 }
 
-// [m^2] of the hull of a plane where nothing is seen under it: all of a table, whatever stands on
-// it, but not what lies between the tops of boxes of one height.
-double ClosedArea(const InverseDepth& grid, const InversePlane& plane, const Carrier& carrier) {
+// [m^2] of the hull of a plane where depth is measured, and not under it: all of a table, whatever
+// stands on it, but not what lies between the tops of boxes of one height.
+double ClosedArea(const InverseDepth& grid, const Carrier& carrier) {
   const double ray_area = (grid.ray_x[1] - grid.ray_x[0]) * (grid.ray_y[1] - grid.ray_y[0]);
   double area = 0;
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {
-      const float x = grid.ray_x[static_cast<size_t>(u)];
-      const float y = grid.ray_y[static_cast<size_t>(v)];
-      const double inverse_depth = plane.At(x, y);
-      if (inverse_depth <= 0 || grid.values[grid.Index(u, v)] <= 0) continue;
-      const double z = 1 / inverse_depth;
-      if (!carrier.prism.Contains(Eigen::Vector3d(x * z, y * z, z)) ||
+      const Eigen::Vector3d ray(grid.ray_x[static_cast<size_t>(u)],
+                                grid.ray_y[static_cast<size_t>(v)], 1);
+      const double toward = -carrier.plane.normal.dot(ray);
+      if (toward <= 0 || grid.values[grid.Index(u, v)] <= 0) continue;
+      const double z = carrier.plane.d / toward;
+      if (!carrier.prism.Contains(z * ray) ||
           carrier.plane.Height(PointOf(grid, u, v)) < -kBehind) {
         continue;
       }
@@ -127,12 +127,12 @@ double ClosedArea(const InverseDepth& grid, const InversePlane& plane, const Car
 
 // Whether another level plane, too large for tops of objects, is as far above plane k as a table
 // above the floor.
-bool IsFloor(const InverseDepth& grid, const Candidates& candidates,
-             const std::vector<Carrier>& carriers, size_t k, const PlaneFilterConfig& config) {
-  for (size_t j = 0; j < candidates.size(); ++j) {
+bool IsFloor(const InverseDepth& grid, const std::vector<Carrier>& carriers, size_t num_planes,
+             size_t k, const PlaneFilterConfig& config) {
+  for (size_t j = 0; j < num_planes; ++j) {
     if (carriers[k].plane.d - carriers[j].plane.d > config.min_table_height_m() &&
         Angle(carriers[k].plane.normal, carriers[j].plane.normal) < kMaxLevelAngle &&
-        ClosedArea(grid, candidates[j].plane, carriers[j]) > kMaxTopArea) {
+        ClosedArea(grid, carriers[j]) > kMaxTopArea) {
       return true;
     }
   }
@@ -233,7 +233,7 @@ size_t SceneRoles::MainSupport(const InverseDepth& grid, const PlaneCandidates& 
   size_t main = 0;
   double best_score = -1;
   for (size_t k = 0; k < candidates.planes.size(); ++k) {
-    const bool is_floor = IsFloor(grid, candidates.planes, carriers_, k, config_);
+    const bool is_floor = IsFloor(grid, carriers_, candidates.planes.size(), k, config_);
     const double score = Score(grid, carriers_[k], is_floor, config_);
     if (score <= best_score) continue;
     best_score = score;

@@ -66,8 +66,8 @@ void AddExtent(ErrorTable* table, const std::string& name, double error_m, bool 
   if (observed) Add(table, name + " observed mm", kMmPerM * error_m);
 }
 
-// Whether at least 140 degrees of the side of a cylinder are seen: of those that face a camera, 170
-// on a table, this share.
+// Stands for 140 of the 170 degrees of a cylinder's side that face a camera, seen by enough pixels:
+// this share of all its pixels. Only known of rendered ones.
 bool IsWellSeen(const TrueObject& object) {
   constexpr int kMinPx = 1500;
   constexpr double kMinFraction = 140.0 / 170;
