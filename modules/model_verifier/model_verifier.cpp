@@ -20,17 +20,13 @@ namespace {
 // side is clearly tapered, as that of a bowl is; less where its radius changes with height by more
 // than noise.
 double ShareOfSide(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O) {
-  // 6 degrees. The distortion of a sensor tilts 5 cm of a surface by 2.4 (rms) at 0.85 m, and by
-  // more where it is farther: it is that of a disparity.
+  // 6 degrees. The distortion of a sensor tilts 5 cm of a surface by 2.4 (rms).
   constexpr double kMaxTaper = 0.1;
-  constexpr double kDistance = 0.85;
   // Whose noise is that of one independent sample, in all six layers.
   constexpr double kPixelsPerLayer = 6 * 36;
-  const double z = cylinder.X_CO.translation().z();
-  const double sigma = MeasurementSigma(z);
-  const double max_taper = kMaxTaper * std::max(1.0, z * z / (kDistance * kDistance));
+  const double sigma = MeasurementSigma(cylinder.X_CO.translation().z());
   const Taper taper = TaperOf(cylinder, points_O, sigma);
-  if (std::abs(taper.slope) - 2 * taper.sd > max_taper) return 0;
+  if (std::abs(taper.slope) - 2 * taper.sd > kMaxTaper) return 0;
   const double misfit = LayerMisfit(cylinder, points_O) / sigma;
   const double noise = kPixelsPerLayer / std::max(1.0, static_cast<double>(points_O.size()));
   return 1 - MisfitShare(std::sqrt(std::max(0.0, misfit * misfit - noise)));
