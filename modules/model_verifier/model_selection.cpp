@@ -90,13 +90,15 @@ std::optional<size_t> ModelSelection::AddRefined(const Hypothesis& hypothesis, d
 void ModelSelection::RefineCandidate(Candidate* candidate, const Observation& fitted,
                                      const Input& input) const {
   Solid* const solid = &candidate->hypothesis.solid;
-  candidate->is_refined = true;
+  RayEvidence* const evidence = &candidate->evidence;
+  std::optional<double> share;
+  if (config_.refine()) {
+    share = RefineOrClimb(fitted, input.observation, solid, evidence, input.buffers).misfit_share;
+  }
   candidate->misfit_share =
-      config_.refine()
-          ? RefineOrClimb(fitted, input.observation, solid, &candidate->evidence, input.buffers)
-                .misfit_share
-          : MisfitShareOf(*solid, candidate->evidence, input.observation,
-                          &input.buffers->explained_O);
+      share ? *share
+            : MisfitShareOf(*solid, *evidence, input.observation, &input.buffers->explained_O);
+  candidate->is_refined = true;
 }
 
 // The candidate that explains the most pixels nobody else explains; nothing when it explains too

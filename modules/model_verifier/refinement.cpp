@@ -29,21 +29,17 @@ Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buff
 FitResult RefineIfNoWorse(const Observation& fitted, const Observation& judging, Solid* solid,
                           RayEvidence* evidence, FitBuffers* buffers) {
   constexpr double kMaxLoss = 0.02;  // of the explained pixels: noise of the balance
-  const auto stay = [&] {
-    return FitResult{false, MisfitShareOf(*solid, *evidence, judging, buffers)};
-  };
   const Solid refined = Refine(*solid, fitted, &buffers->points);
-  if (refined.size == solid->size && refined.X_CO.matrix() == solid->X_CO.matrix()) return stay();
+  if (refined.size == solid->size && refined.X_CO.matrix() == solid->X_CO.matrix()) return {};
   CastRays(refined, judging, &buffers->evidence);
   const double max_loss = kMaxLoss * evidence->num_explained();
-  if (buffers->evidence.Balance() < evidence->Balance() - max_loss) return stay();
+  if (buffers->evidence.Balance() < evidence->Balance() - max_loss) return {};
   const double misfit_share = MisfitShareOf(refined, buffers->evidence, judging, buffers);
   // The fit may have moved it onto its neighbours' points.
   if (misfit_share > 0) {
-    const FitResult before = stay();
-    if (NetFit(buffers->evidence, misfit_share) <
-        NetFit(*evidence, before.misfit_share) - max_loss) {
-      return before;
+    const double share_before = MisfitShareOf(*solid, *evidence, judging, buffers);
+    if (NetFit(buffers->evidence, misfit_share) < NetFit(*evidence, share_before) - max_loss) {
+      return {false, share_before};
     }
   }
   *solid = refined;
@@ -66,10 +62,13 @@ FitResult RefineOrClimb(const Observation& fitted, const Observation& judging, S
   const double misfit_share = MisfitShareOf(*solid, *evidence, judging, buffers);
   if (misfit_share > 0) {
     CastRays(before, judging, &buffers->evidence);
-    if (NetFit(*evidence, misfit_share) < NetFit(buffers->evidence, fit.misfit_share)) {
+    const double share_before = fit.misfit_share
+                                    ? *fit.misfit_share
+                                    : MisfitShareOf(before, buffers->evidence, judging, buffers);
+    if (NetFit(*evidence, misfit_share) < NetFit(buffers->evidence, share_before)) {
       *solid = before;
       std::swap(*evidence, buffers->evidence);
-      return fit;
+      return {fit.is_fitted, share_before};
     }
   }
   return {fit.is_fitted, misfit_share};

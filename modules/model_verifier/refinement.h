@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "modules/geometry/solid.h"
 #include "modules/model_verifier/ray_casting.h"
 #include "modules/model_verifier/surface_fit.h"
@@ -14,8 +16,9 @@ Solid Refine(const Solid& solid, const Observation& observation, FitPoints* buff
 
 // What a fit made of a solid.
 struct FitResult {
-  bool is_fitted = false;   // whether a fit has moved it; a climb is none
-  double misfit_share = 0;  // of what speaks for the solid in its place, see MisfitShareOf
+  bool is_fitted = false;  // whether a fit has moved it; a climb is none
+  // Of what speaks for the solid in its place, see MisfitShareOf; where it had to be known.
+  std::optional<double> misfit_share;
 };
 
 // Refines a solid on one observation where that does not lose what speaks for it on another: with

@@ -14,17 +14,21 @@ using testing::ElementsAre;
 
 constexpr char kBox[] = "object { box { size_x_m: 0.12 size_y_m: 0.1 size_z_m: 0.12 } y_m: 0.65 }";
 
-// Which of several certain solids are kept where the box is.
-std::vector<uint8_t> Kept(const RenderedScene& scene, const std::vector<Solid>& solids) {
+ObjectModel Object(const Solid& solid, float confidence = 1) {
+  ObjectModel object;
+  object.solid = solid;
+  object.confidence = confidence;
+  return object;
+}
+
+// Which of several objects are kept where the box is.
+std::vector<uint8_t> Kept(const RenderedScene& scene, const std::vector<ObjectModel>& objects) {
   ObservedImage observed;
   observed.Set(scene.depth, scene.table);
   const Observation observation = observed.every_pixel();
-  std::vector<ObjectModel> objects(solids.size());
-  std::vector<RayEvidence> evidence(solids.size());
-  for (size_t i = 0; i < solids.size(); ++i) {
-    objects[i].solid = solids[i];
-    objects[i].confidence = 1;
-    CastRays(solids[i], observation, &evidence[i]);
+  std::vector<RayEvidence> evidence;
+  for (const ObjectModel& object : objects) {
+    evidence.push_back(CastRays(object.solid, observation));
   }
   return SupportedObjects(ModelVerifierConfig())
       .Find(objects, evidence, observation.grid.num_pixels());
@@ -32,8 +36,8 @@ std::vector<uint8_t> Kept(const RenderedScene& scene, const std::vector<Solid>& 
 
 TEST(SupportedObjects, OfTwoInOnePlaceKeepsTheOneOfWhichALargerShareSpeaksAlone) {
   const RenderedScene scene = Render(ParseScene(kBox, "scene"), 1);
-  const Solid& whole = scene.objects[0].solid;
-  const Solid part = Longer(whole, 1, 1, -0.03);  // the same front
+  const ObjectModel whole = Object(scene.objects[0].solid);
+  const ObjectModel part = Object(Longer(whole.solid, 1, 1, -0.03));  // the same front
   EXPECT_THAT(Kept(scene, {whole}), ElementsAre(1));
   EXPECT_THAT(Kept(scene, {whole, part}), ElementsAre(1, 0));
   EXPECT_THAT(Kept(scene, {part, whole}), ElementsAre(0, 1));
@@ -41,19 +45,8 @@ TEST(SupportedObjects, OfTwoInOnePlaceKeepsTheOneOfWhichALargerShareSpeaksAlone)
 
 TEST(SupportedObjects, WhatIsDroppedAsUncertainTakesNothingFromOthers) {
   const RenderedScene scene = Render(ParseScene(kBox, "scene"), 1);
-  ObservedImage observed;
-  observed.Set(scene.depth, scene.table);
-  std::vector<ObjectModel> objects(2);
-  std::vector<RayEvidence> evidence(2);
-  for (size_t i = 0; i < 2; ++i) {
-    objects[i].solid = scene.objects[0].solid;
-    CastRays(objects[i].solid, observed.every_pixel(), &evidence[i]);
-  }
-  objects[0].confidence = 0.5f;
-  objects[1].confidence = 0.6f;
-  EXPECT_THAT(SupportedObjects(ModelVerifierConfig())
-                  .Find(objects, evidence, observed.every_pixel().grid.num_pixels()),
-              ElementsAre(0, 1));
+  const Solid& box = scene.objects[0].solid;
+  EXPECT_THAT(Kept(scene, {Object(box, 0.5f), Object(box, 0.6f)}), ElementsAre(0, 1));
 }
 
 }  // namespace

@@ -18,9 +18,10 @@ constexpr int kMinStrips = 4;
 
 // [m] of a point from the side of a cylinder; nothing for one around its ends or nearer to them.
 std::optional<double> DistanceFromSide(const Solid& cylinder, const Eigen::Vector3d& p_O) {
-  const double distance = p_O.head<2>().norm() - cylinder.radius();
   const double from_end = 0.5 * cylinder.height() - std::abs(p_O.z());
-  if (from_end < std::max(kEdgeMargin, std::abs(distance))) return std::nullopt;
+  if (from_end < kEdgeMargin) return std::nullopt;
+  const double distance = p_O.head<2>().norm() - cylinder.radius();
+  if (from_end < std::abs(distance)) return std::nullopt;
   return distance;
 }
 

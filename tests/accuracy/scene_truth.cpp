@@ -62,11 +62,11 @@ Solid SolidOf(const json& truth, Shape shape) {
 }
 
 std::optional<double> DistanceOf(const json& object) {
-  static const char* const kPoints[] = {"/truth/position", "/circle_fit/axis_point_cam",
-                                        "/visible_footprint/visible_centre_cam", "/seed_point_cam"};
-  for (const char* pointer : kPoints) {
-    const json::json_pointer path(pointer);
-    if (object.contains(path)) return object.at(path).at(2).get<double>();
+  static const char* const kDepths[] = {"/truth/position/2", "/circle_fit/axis_point_cam/2",
+                                        "/visible_footprint/visible_centre_cam/2",
+                                        "/seed_point_cam/2"};
+  for (const char* path : kDepths) {
+    if (const auto depth = NumberAt<double>(object, path)) return depth;
   }
   return std::nullopt;
 }
