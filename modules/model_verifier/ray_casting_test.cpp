@@ -66,6 +66,14 @@ TEST(CastRays, CountsWhatIsOnInFrontOfAndBehindTheSurface) {
   EXPECT_EQ(unmeasured.num_violating, 0);
 }
 
+TEST(CastRays, SeesThroughASolidThinnerThanItsTolerance) {
+  for (const Shape shape : {Shape::kBox, Shape::kCylinder}) {
+    const Solid thin = FacingSolid(shape, 1.0, {0.2, 0.2, 0.004});
+    EXPECT_EQ(CastAt(thin, Wall(998), FarPlane()).num_violating, 0);
+    EXPECT_GT(CastAt(thin, Wall(1020), FarPlane()).num_violating, 100);
+  }
+}
+
 TEST(CastRays, LooksIntoAnOpenCylinderWithoutBlame) {
   const Solid solid = FacingSolid(Shape::kCylinder, 1.0, {0.2, 0.2, 0.1});
   const DepthImage image = Wall(1020);

@@ -16,7 +16,8 @@ namespace HWY_NAMESPACE {
 // Where rays are inside a solid, as depths.
 struct Passage {
   Vector z_in, z_out;
-  Mask through_top;  // enters through the face at the upper end of O's z axis
+  Mask through_top;   // enters through the face at the upper end of O's z axis
+  Mask through_ends;  // enters through one end of O's z axis and leaves through the other
 
   HWY_INLINE Mask is_hit() const {
     return hn::And(hn::Lt(z_in, z_out), hn::Gt(z_in, hn::Zero(Floats())));
@@ -38,11 +39,17 @@ HWY_INLINE void CutBySlab(float half, float camera, const Vector& ray, Passage* 
 template <bool kIsCylinder>
 HWY_INLINE Passage PassageOf(const RaySolid& solid, const Vector3& ray_O) {
   const Floats f;
-  Passage passage{hn::Zero(f), Constant(std::numeric_limits<float>::max()), hn::FirstN(f, 0)};
+  const auto none = hn::FirstN(f, 0);
+  Passage passage{hn::Zero(f), Constant(std::numeric_limits<float>::max()), none, none};
   CutBySlab(solid.half_size[2], solid.camera_O[2], ray_O.z, &passage);
+  const Vector z_first = passage.z_in, z_last = passage.z_out;
+  const auto mark_ends = [&] {
+    passage.through_ends = hn::And(hn::Eq(passage.z_in, z_first), hn::Eq(passage.z_out, z_last));
+  };
   if (!kIsCylinder) {
     CutBySlab(solid.half_size[1], solid.camera_O[1], ray_O.y, &passage);
     CutBySlab(solid.half_size[0], solid.camera_O[0], ray_O.x, &passage);
+    mark_ends();
     return passage;
   }
   const float* o = solid.camera_O;
@@ -60,6 +67,7 @@ HWY_INLINE Passage PassageOf(const RaySolid& solid, const Vector3& ray_O) {
   passage.z_in = hn::Max(passage.z_in, side_in);
   passage.z_out =
       hn::IfThenElseZero(hn::Gt(discriminant, hn::Zero(f)), hn::Min(passage.z_out, side_out));
+  mark_ends();
   return passage;
 }
 
@@ -209,7 +217,9 @@ HWY_INLINE void SortHits(const RaySolid& solid, const RayWindow& window, const R
     counts->num_hollow += Count(is_hollow);
     is_other = hn::AndNot(is_hollow, is_other);
   }
-  const auto length = hn::Sub(hn::Min(z, passage.z_out), passage.z_in);
+  // However thin it is, nothing is behind what a ray goes through from end to end.
+  const auto z_out = hn::IfThenElse(passage.through_ends, z, passage.z_out);
+  const auto length = hn::Sub(hn::Min(z, z_out), passage.z_in);
   counts->num_violating += Count(hn::And(is_other, hn::Gt(length, tolerance)));
 }
 

@@ -185,7 +185,9 @@ class StepByStep {
     } else if (is_cylinder && through_top && distance < 0) {
       ++counts_.num_hollow;
     } else {
-      counts_.num_violating += std::min(z, z_out) - z_in > tolerance;
+      const Eigen::Vector3d exit = X_OC * (z_out * ray);
+      const bool through_ends = std::abs(std::abs(entry.z() - exit.z()) - 2 * half.z()) < 1e-4;
+      counts_.num_violating += (through_ends ? z : std::min(z, z_out)) - z_in > tolerance;
     }
   }
 
