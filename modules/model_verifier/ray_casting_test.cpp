@@ -74,6 +74,16 @@ TEST(CastRays, SeesThroughASolidThinnerThanItsTolerance) {
   }
 }
 
+TEST(CastRays, TakesWhatIsOnAThinSolidForTheFaceThatIsSeen) {
+  // 4 mm behind its upper face, nearer to the lower one, which looks away.
+  for (const Shape shape : {Shape::kBox, Shape::kCylinder}) {
+    const RayEvidence evidence =
+        CastAt(FacingSolid(shape, 1.0, {0.2, 0.2, 0.006}), Wall(1001), FarPlane());
+    EXPECT_GT(evidence.explained.size(), 100u);
+    EXPECT_EQ(evidence.num_contradicting, 0);
+  }
+}
+
 TEST(CastRays, LooksIntoAnOpenCylinderWithoutBlame) {
   const Solid solid = FacingSolid(Shape::kCylinder, 1.0, {0.2, 0.2, 0.1});
   const DepthImage image = Wall(1020);

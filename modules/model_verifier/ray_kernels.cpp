@@ -111,11 +111,21 @@ struct NormalMatch {
   Mask is_certain;
 };
 
+// On which side of an axis the face is that a point lies on: on that of the camera if it may, as
+// the other cannot be seen, and a solid may be thinner than its tolerance.
+HWY_INLINE Vector SideOf(const RaySolid& solid, int axis, const Vector& position,
+                         const Vector& tolerance) {
+  const auto seen = Constant(solid.camera_O[axis] < 0 ? -1.0f : 1.0f);
+  const auto may_be_seen =
+      hn::Gt(hn::Mul(position, seen), hn::Sub(Constant(solid.half_size[axis]), tolerance));
+  return hn::IfThenElse(may_be_seen, seen, hn::CopySign(Constant(1.0f), position));
+}
+
 template <bool kIsCylinder>
-HWY_INLINE NormalMatch MatchNormal(const FaceDistances& q, const Vector3& p, const Vector3& n,
-                                   float edge_margin) {
+HWY_INLINE NormalMatch MatchNormal(const RaySolid& solid, const FaceDistances& q, const Vector3& p,
+                                   const Vector3& n, const Vector& tolerance, float edge_margin) {
   const auto inside = Constant(-edge_margin);
-  const auto on_end = hn::CopySign(Constant(1.0f), p.z);
+  const auto on_end = SideOf(solid, 2, p.z, tolerance);
   if (kIsCylinder) {
     const auto radial = hn::Max(q.radial, Constant(1e-9f));
     const auto side = hn::Div(hn::Add(hn::Mul(p.x, n.x), hn::Mul(p.y, n.y)), radial);
@@ -124,8 +134,8 @@ HWY_INLINE NormalMatch MatchNormal(const FaceDistances& q, const Vector3& p, con
   }
   const auto is_x = hn::And(hn::Ge(q.x, q.y), hn::Ge(q.x, q.z));
   const auto is_y = hn::AndNot(is_x, hn::Ge(q.y, q.z));
-  const auto x = hn::Mul(hn::CopySign(Constant(1.0f), p.x), n.x);
-  const auto y = hn::Mul(hn::CopySign(Constant(1.0f), p.y), n.y);
+  const auto x = hn::Mul(SideOf(solid, 0, p.x, tolerance), n.x);
+  const auto y = hn::Mul(SideOf(solid, 1, p.y, tolerance), n.y);
   const auto z = hn::Mul(on_end, n.z);
   const auto second = hn::IfThenElse(is_x, hn::Max(q.y, q.z),
                                      hn::IfThenElse(is_y, hn::Max(q.x, q.z), hn::Max(q.x, q.y)));
@@ -161,13 +171,15 @@ HWY_INLINE void AppendOverhanging(const RaySolid& solid, const RayWindow& window
 template <bool kIsCylinder>
 HWY_INLINE void Explain(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
                         const Mask& is_on, const Vector3& p, const FaceDistances& q,
-                        const Vector& relative, int u, int v, RayCounts* counts) {
+                        const Vector& distance, const Vector& tolerance, int u, int v,
+                        RayCounts* counts) {
   const Floats f;
   const Ints i32;
   const auto one = Constant(1.0f);
   const Vector3 n_C = NormalsAt(window, u, v);
-  const NormalMatch match =
-      MatchNormal<kIsCylinder>(q, p, Rotate(solid.R_OC, n_C), limits.edge_margin_m);
+  const NormalMatch match = MatchNormal<kIsCylinder>(solid, q, p, Rotate(solid.R_OC, n_C),
+                                                     tolerance, limits.edge_margin_m);
+  const auto relative = hn::Div(distance, tolerance);
   const auto fit_of_normal = hn::Mul(hn::Sub(match.cosine, Constant(limits.min_normal_cos)),
                                      Constant(1 / (1 - limits.min_normal_cos)));
   const auto normal_fit =
@@ -201,8 +213,7 @@ HWY_INLINE void SortHits(const RaySolid& solid, const RayWindow& window, const R
   const auto is_on = hn::And(hn::And(is_hit, hn::Lt(hn::Abs(distance), tolerance)),
                              hn::Ge(HeightAbove(solid.support, pixels), LeastHeight(limits, z)));
   if (!hn::AllFalse(f, is_on)) {
-    Explain<kIsCylinder>(solid, window, limits, is_on, p, q, hn::Div(distance, tolerance), u, v,
-                         counts);
+    Explain<kIsCylinder>(solid, window, limits, is_on, p, q, distance, tolerance, u, v, counts);
   }
   auto is_other = hn::AndNot(is_on, is_hit);
   const auto is_in_front = hn::Lt(z, passage.z_in);

@@ -175,7 +175,7 @@ class StepByStep {
                              entry.head<2>().norm() < half.x() - 2e-4;
     const double distance = DistanceToSurface(p);
     if (std::abs(distance) < tolerance && height >= 0.8 * tolerance) {
-      const auto normal = NormalAt(p, side, end);
+      const auto normal = NormalAt(p, side, end, tolerance);
       const double normal_fit = normal && !n_O.isZero() ? (normal->dot(n_O) - 0.85) / 0.15 : 1;
       counts_.num_contradicting += normal_fit < 0;
       counts_.num_explained += normal_fit >= 0;
@@ -200,8 +200,16 @@ class StepByStep {
     return q.maxCoeff() < 0 ? q.maxCoeff() : q.cwiseMax(0.0).norm();
   }
 
-  std::optional<Eigen::Vector3d> NormalAt(const Eigen::Vector3d& p, double side, double end) const {
-    const Eigen::Vector3d along_z(0, 0, p.z() < 0 ? -1 : 1);
+  // The side of an axis that the camera is on where that may be, else that of the point.
+  double SideOf(int axis, double position, double tolerance) const {
+    const double seen = solid_.X_CO.inverse().translation()[axis] < 0 ? -1 : 1;
+    if (seen * position > 0.5 * solid_.size[axis] - tolerance) return seen;
+    return position < 0 ? -1 : 1;
+  }
+
+  std::optional<Eigen::Vector3d> NormalAt(const Eigen::Vector3d& p, double side, double end,
+                                          double tolerance) const {
+    const Eigen::Vector3d along_z(0, 0, SideOf(2, p.z(), tolerance));
     if (solid_.shape == Shape::kCylinder) {
       if (std::min(side, end) > -0.012) return std::nullopt;
       return side > end ? Eigen::Vector3d(p.x(), p.y(), 0).normalized() : along_z;
@@ -211,7 +219,7 @@ class StepByStep {
     q.maxCoeff(&face);
     q[face] = -1;
     if (q.maxCoeff() > -0.012) return std::nullopt;
-    return Eigen::Vector3d(Eigen::Vector3d::Unit(face) * (p[face] < 0 ? -1.0 : 1.0));
+    return Eigen::Vector3d(SideOf(face, p[face], tolerance) * Eigen::Vector3d::Unit(face));
   }
 
   const Solid& solid_;
