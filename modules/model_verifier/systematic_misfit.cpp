@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "modules/geometry/sensor_noise.h"
+#include "modules/model_verifier/outline_misfit.h"
 
 namespace declutter {
 namespace {
@@ -15,6 +16,7 @@ constexpr double kOutline = 1.0;       // [rad] from the line of sight: the outl
 constexpr size_t kNumStrips = 6;
 constexpr int kMinPoints = 3;  // of a strip that counts
 constexpr int kMinStrips = 4;
+constexpr double kMaxShare = 0.3;  // of what speaks for a solid that a misfit takes
 
 // [m] of a point from the side of a cylinder; nothing for one around its ends or nearer to them.
 std::optional<double> DistanceFromSide(const Solid& cylinder, const Eigen::Vector3d& p_O) {
@@ -162,15 +164,22 @@ std::optional<double> StepOf(const Solid& cylinder, const std::vector<Eigen::Vec
 double MisfitShare(double misfit_sigmas) {
   constexpr double kNoise = 0.1;  // [sigma^2] that noise, which neighbours share, leaves of a strip
   constexpr double kWeight = 0.4;
-  constexpr double kMaxShare = 0.3;
   return std::clamp(kWeight * (misfit_sigmas * misfit_sigmas - kNoise), 0.0, kMaxShare);
+}
+
+double OutlineMisfitShare(double misfit_px) {
+  constexpr double kNoise = 0.5;  // [px^2] that noise leaves of a part of an edge
+  constexpr double kWeight = 0.1;
+  return std::clamp(kWeight * (misfit_px * misfit_px - kNoise), 0.0, kMaxShare);
 }
 
 double MisfitShareOf(const Solid& solid, const RayEvidence& evidence,
                      const Observation& observation, std::vector<Eigen::Vector3d>* points_O) {
   FindExplainedPoints(solid, evidence, observation, points_O);
-  return MisfitShare(SystematicMisfit(solid, *points_O) /
-                     MeasurementSigma(solid.X_CO.translation().z()));
+  const double of_side = SystematicMisfit(solid, *points_O);
+  if (of_side > 0) return MisfitShare(of_side / MeasurementSigma(solid.X_CO.translation().z()));
+  const auto of_outline = OutlineMisfit(solid, evidence, observation);
+  return of_outline ? OutlineMisfitShare(*of_outline) : 0;
 }
 
 Taper TaperOf(const Solid& cylinder, const std::vector<Eigen::Vector3d>& points_O, double sigma) {
