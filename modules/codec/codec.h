@@ -34,8 +34,9 @@ class MessageTooLarge : public std::runtime_error {
 // Every Decode throws BadMessage. An image is empty exactly when header.error is set, and so are
 // the lists.
 
-// Lossless when the image fits; one that does not is decimated by 2, 3 or 4, and the message says
-// so. Throws MessageTooLarge when even that does not fit.
+// Lossless when the image fits. Of one that does not, counts finer than 0.5 mm are rounded to that
+// or somewhat less; if this is not enough it is decimated by 2, 3 or 4, and the message says so.
+// Throws MessageTooLarge when even that does not fit.
 depth_frame_t Encode(const DepthFrame& frame);
 DepthFrame Decode(const depth_frame_t& message);
 

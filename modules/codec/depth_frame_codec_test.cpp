@@ -37,8 +37,9 @@ void ExpectSame(const DepthFrame& a, const DepthFrame& b) {
 }
 
 // An image whose counts no coding makes smaller.
-DepthFrame NoisyFrame(int width, int height, uint16_t amplitude) {
+DepthFrame NoisyFrame(int width, int height, uint16_t amplitude, double depth_scale_m = 0.001) {
   DepthFrame frame = TestDepthFrame();
+  frame.image.depth_scale_m = depth_scale_m;
   frame.image.camera = {width, height, 912, 910, 641, 361};
   frame.image.counts.resize(static_cast<size_t>(frame.image.camera.num_pixels()));
   std::mt19937 random(3);
@@ -99,6 +100,23 @@ TEST(DepthFrameCodec, RestoresAFrameWithAnError) {
 
 TEST(DepthFrameCodec, RefusesToEncodeWhatDoesNotFit) {
   EXPECT_THROW(Encode(NoisyFrame(1600, 1200, 50'000)), MessageTooLarge);
+}
+
+TEST(DepthFrameCodec, RoundsFineDepthsBeforeItDropsPixels) {
+  DepthFrame frame = NoisyFrame(640, 480, 40, 0.0001);
+  frame.image.counts[0] = 0;
+  frame.image.counts[1] = 1;
+  const DepthFrame received = Decode(Encode(frame));
+  EXPECT_FALSE(received.decimation);
+  EXPECT_DOUBLE_EQ(received.image.depth_scale_m, 0.0005);
+  ASSERT_EQ(received.image.counts.size(), frame.image.counts.size());
+  EXPECT_EQ(received.image.counts[0], 0);
+  EXPECT_EQ(received.image.counts[1], 1);  // measured, if hardly
+  for (int v = 1; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      ASSERT_NEAR(received.image.DepthAt(u, v), frame.image.DepthAt(u, v), 0.00025 + 1e-9);
+    }
+  }
 }
 
 TEST(DepthFrameCodec, KeepsEverySecondRowAndColumnOfAnImageThatDoesNotFit) {
