@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/extents.h"
 
 namespace declutter {
@@ -10,6 +11,7 @@ namespace {
 constexpr double kUnexplainedReach = 0.020;  // [m] from a solid to points that it should explain
 constexpr double kReachAbove = 0.050;        // [m] above a top that is not seen, the same
 constexpr double kMinThickness = 0.010;      // [m] of a solid
+constexpr double kMinHeightInSigmas = 4;     // of the noise: the support is seen in waves
 constexpr double kUnknownWeight = 0.25;  // of a pixel without depth: dark or shiny, or no surface
 constexpr double kAssumedDepthFactor = 0.75;  // of the confidence where only one side face was seen
 
@@ -21,7 +23,9 @@ int NumUnexplained(const Solid& solid, bool is_top_seen, const Observation& unex
 }
 
 double Confidence(const ObjectModel& object, const RayEvidence& evidence, int num_unexplained) {
-  if (object.solid.size.minCoeff() < kMinThickness) return 0;
+  const double min_height = std::max(
+      kMinThickness, kMinHeightInSigmas * MeasurementSigma(object.solid.X_CO.translation().z()));
+  if (object.solid.size.minCoeff() < kMinThickness || object.solid.height() < min_height) return 0;
   double fit = evidence.Fit();
   if (object.evidence[1] == Evidence::kAssumed) fit *= kAssumedDepthFactor;
   const auto num_explained = static_cast<double>(evidence.explained.size());

@@ -13,7 +13,7 @@ int NumUnexplained(const Solid& solid, bool is_top_seen, const Observation& unex
 
 // In [0, 1]: mean fit of the explained pixels, times their share of all pixels that speak for or
 // against the solid, unmeasured ones a little; less where its depth is a guess, 0 where it is too
-// thin to be a solid.
+// thin to be a solid, or lower than the waves of the sensor.
 double Confidence(const ObjectModel& object, const RayEvidence& evidence, int num_unexplained);
 
 }  // namespace declutter
