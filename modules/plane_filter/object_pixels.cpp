@@ -24,9 +24,9 @@ constexpr double kFootReach = 1.5;
 // Object pixels among a low pixel and its 8 neighbours.
 constexpr int kMinNeighborhood = 6;
 
-HeightLimits LimitsAbove(const InversePlane& support, const PlaneFilterConfig& config) {
+HeightLimits LimitsAbove(const InversePlane& support, const PlaneFilterConfig& config,
+                         float sigma) {
   const float camera_height = static_cast<float>(support.ToPlane().d);
-  const float sigma = static_cast<float>(config.inverse_depth_sigma());
   // height = camera_height * residual / value, see InversePlane::ToPlane.
   const float min_slope = static_cast<float>(config.min_height_m()) / camera_height;
   const float object_slope = static_cast<float>(config.object_height_m()) / camera_height;
@@ -116,10 +116,9 @@ int32_t NumMarked(const uint8_t* begin, const uint8_t* end) {
 }  // namespace
 
 void ObjectPixels::Classify(const InverseDepth& image, const InversePlane& support,
-                            const std::vector<InversePlane>& walls) {
-  const HeightLimits limits = LimitsAbove(support, config_);
-  const float wall_band =
-      static_cast<float>(config_.inlier_sigmas() * config_.inverse_depth_sigma());
+                            const std::vector<InversePlane>& walls, double sigma) {
+  const HeightLimits limits = LimitsAbove(support, config_, static_cast<float>(sigma));
+  const float wall_band = static_cast<float>(config_.inlier_sigmas() * sigma);
   const auto width = static_cast<size_t>(image.width);
   classes_.resize(image.values.size());
   tall_.resize(image.values.size());
@@ -164,8 +163,8 @@ void ObjectPixels::CountStanding(const InverseDepth& image) {
 
 // Of the regions as high as objects: whole regions that mostly stand over the widened hull, and of
 // the others what is over the hull itself.
-void ObjectPixels::MarkStanding(const InverseDepth& image) {
-  const float step = kStepSigmas * static_cast<float>(config_.inverse_depth_sigma());
+void ObjectPixels::MarkStanding(const InverseDepth& image, double sigma) {
+  const float step = kStepSigmas * static_cast<float>(sigma);
   regions_ =
       FindComponents(image.width, image.height, tall_, image.values, step, std::move(regions_));
   CountStanding(image);
@@ -215,11 +214,11 @@ void ObjectPixels::DropStreaks(const InverseDepth& image) {
 
 const PixelMask& ObjectPixels::Find(const InverseDepth& image, const InversePlane& support,
                                     const std::vector<Eigen::Vector2d>& hull_T,
-                                    const std::vector<InversePlane>& walls) {
-  Classify(image, support, walls);
+                                    const std::vector<InversePlane>& walls, double sigma) {
+  Classify(image, support, walls, sigma);
   hull_ = Prism(support, hull_T, 0.0, std::move(hull_));
   widened_ = Prism(support, hull_T, config_.hull_margin_m(), std::move(widened_));
-  MarkStanding(image);
+  MarkStanding(image, sigma);
   AddFeet(image, FootReach(image, support, config_.object_height_m()));
   DropStreaks(image);
   return objects_;

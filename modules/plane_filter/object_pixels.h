@@ -17,17 +17,18 @@ class ObjectPixels {
  public:
   explicit ObjectPixels(const PlaneFilterConfig& config) : config_(config) {}
 
-  // hull_T as PlaneHull gives it. Pixels in or behind a wall are not objects. The result is valid
-  // until the next call, which uses all memory again.
+  // hull_T as PlaneHull gives it; sigma is the standard deviation of 1 / z on a flat surface [1/m].
+  // Pixels in or behind a wall are not objects. The result is valid until the next call, which uses
+  // all memory again.
   const PixelMask& Find(const InverseDepth& image, const InversePlane& support,
                         const std::vector<Eigen::Vector2d>& hull_T,
-                        const std::vector<InversePlane>& walls);
+                        const std::vector<InversePlane>& walls, double sigma);
 
  private:
   void Classify(const InverseDepth& image, const InversePlane& support,
-                const std::vector<InversePlane>& walls);
+                const std::vector<InversePlane>& walls, double sigma);
   void CountStanding(const InverseDepth& image);
-  void MarkStanding(const InverseDepth& image);
+  void MarkStanding(const InverseDepth& image, double sigma);
   void AddFeet(const InverseDepth& image, int reach);
   void DropStreaks(const InverseDepth& image);
 

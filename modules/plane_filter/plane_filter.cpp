@@ -4,12 +4,16 @@
 #include <utility>
 
 #include "modules/geometry/for_each_processor.h"
+#include "modules/plane_filter/independent_noise.h"
 
 namespace declutter {
 namespace {
 
 // Supports are refined on every n-th pixel: neighbours share most of their noise.
 constexpr int kRefineStride = 2;
+
+// Noise of an image in that of the sensor it is made for: with more it shows no plane.
+constexpr double kMaxNoise = 10;
 
 void MoveToCamera(const Plane& plane, const std::vector<Eigen::Vector2d>& hull_T,
                   std::vector<Eigen::Vector3f>* hull_C) {
@@ -42,8 +46,7 @@ PlaneFilter::PlaneFilter(const PlaneFilterConfig& config)
 
 // Where the plane is coherent in half_.
 const PixelMask& PlaneFilter::RegionOf(const InversePlane& plane) {
-  const float band = static_cast<float>(config_.inlier_sigmas()) *
-                     static_cast<float>(config_.inverse_depth_sigma());
+  const float band = static_cast<float>(config_.inlier_sigmas()) * static_cast<float>(sigma_);
   const int min_region_pixels =
       static_cast<int>(config_.min_plane_fraction() / 4 * static_cast<double>(half_.values.size()));
   inliers_ = PlaneInliers(half_, plane, band, std::move(inliers_));
@@ -55,7 +58,7 @@ InversePlane PlaneFilter::Refine(const InversePlane& plane, const PixelMask& reg
   InversePlane refined = plane;
   // Feet of objects are in the band on one side only; a narrower one leaves them out.
   for (const float sigmas : {2.5f, 2.0f, 2.0f}) {
-    const float band = sigmas * static_cast<float>(config_.inverse_depth_sigma());
+    const float band = sigmas * static_cast<float>(sigma_);
     const auto fit = FitInliers(half_, &region, refined, band);
     if (fit) refined = *fit;
   }
@@ -69,10 +72,12 @@ void PlaneFilter::KeepObjects(const DepthImage& image, const PixelMask& objects)
 
 void PlaneFilter::FindTabletop(const DepthImage& image) {
   image_ = Invert(image, std::move(image_));
+  sigma_ = std::clamp(IndependentNoise(image_, &differences_), config_.inverse_depth_sigma(),
+                      kMaxNoise * config_.inverse_depth_sigma());
   grid_ = Subsample(image_, config_.sample_stride(), std::move(grid_));
   half_ = Subsample(image_, kRefineStride, std::move(half_));
-  const PlaneCandidates& candidates = search_.Find(grid_);
-  roles_.Assign(grid_, candidates);
+  const PlaneCandidates& candidates = search_.Find(grid_, sigma_);
+  roles_.Assign(grid_, candidates, sigma_);
   std::vector<SupportPlane>& planes = tabletop_.planes;
   std::vector<uint16_t>& counts = tabletop_.objects.counts;
   size_t num_planes = 0;
@@ -86,7 +91,8 @@ void PlaneFilter::FindTabletop(const DepthImage& image) {
     planes[num_planes].plane = support.ToPlane();
     MoveToCamera(planes[num_planes].plane, hull_T, &planes[num_planes].hull);
     if (num_planes++ > 0) continue;
-    const PixelMask& standing = object_pixels_.Find(image_, support, hull_T, roles_.walls());
+    const PixelMask& standing =
+        object_pixels_.Find(image_, support, hull_T, roles_.walls(), sigma_);
     KeepObjects(image, outlier_filter_.Filter(image_, standing));
   }
   planes.resize(num_planes);

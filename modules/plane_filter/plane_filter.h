@@ -33,6 +33,8 @@ class PlaneFilter {
 
   PlaneFilterConfig config_;
   InverseDepth image_, grid_, half_;
+  double sigma_ = 0;  // [1/m] of 1 / z on a flat surface
+  std::vector<float> differences_;
   PlaneSearch search_;
   SceneRoles roles_;
   PixelMask inliers_;

@@ -89,6 +89,17 @@ TEST(PlaneFilterTest, TakesNoWaveOfAFarTableForAnObject) {
   EXPECT_GT(Filter(WavyTable(7)).num_object_points, 3000);
 }
 
+TEST(PlaneFilterTest, FindsTheTableInTheNoiseOfASensorTooNearForIt) {
+  const RenderedScene scene = RenderText(
+      "camera { height_m: 0.42 pitch_rad: 0.8 } "
+      "noise { model: \"white\" white_sigma_m: 0.004 } "
+      "object { box { size_x_m: 0.1 size_y_m: 0.08 size_z_m: 0.12 } y_m: 0.42 }");
+  const Tabletop tabletop = Filter(scene.depth);
+  ExpectMainSupport(tabletop, scene.table);
+  EXPECT_GT(PartKept(tabletop, scene, kFirstObject, kLastLabel), 0.9);
+  EXPECT_LT(PartKept(tabletop, scene, kTableLabel, kTableLabel), 0.01);
+}
+
 TEST(PlaneFilterTest, KeepsTheCountsOfObjectPixels) {
   const RenderedScene scene = RenderText(kBoxAndCan);
   const Tabletop tabletop = Filter(scene.depth);

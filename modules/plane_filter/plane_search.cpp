@@ -103,12 +103,12 @@ void PlaneSearch::Add(const InversePlane& plane, const PixelMask& region, int nu
                 [&](size_t i) { candidates_.region_of[i] = mark; });
 }
 
-const PlaneCandidates& PlaneSearch::Find(const InverseDepth& grid) {
+const PlaneCandidates& PlaneSearch::Find(const InverseDepth& grid, double sigma) {
   candidates_.planes.clear();
   candidates_.region_of.assign(grid.values.size(), 0);
   if (grid.values.empty()) return candidates_;
   RandomIndex random(config_.seed());
-  const float band = static_cast<float>(config_.inlier_sigmas() * config_.inverse_depth_sigma());
+  const float band = static_cast<float>(config_.inlier_sigmas() * sigma);
   const int min_pixels = std::max(
       3, static_cast<int>(config_.min_plane_fraction() * static_cast<double>(grid.values.size())));
   rest_ = grid;

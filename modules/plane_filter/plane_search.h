@@ -46,7 +46,8 @@ class PlaneSearch {
  public:
   explicit PlaneSearch(const PlaneFilterConfig& config) : config_(config) {}
 
-  const PlaneCandidates& Find(const InverseDepth& grid);
+  // sigma: standard deviation of 1 / z on a flat surface [1/m].
+  const PlaneCandidates& Find(const InverseDepth& grid, double sigma);
 
  private:
   // The pixels of a grid that have a measurement, in no need of their places.

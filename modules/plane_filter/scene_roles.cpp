@@ -183,8 +183,9 @@ void SceneRoles::MakeCarriers(const InverseDepth& grid, const PlaneCandidates& c
 
 // Pixels that cannot be the load of a plane: those of level planes, which may be supports
 // themselves, and those of planes that stand on no other, or are a wall to it.
-void SceneRoles::FindNotLoad(const InverseDepth& grid, const PlaneCandidates& candidates) {
-  const float band = static_cast<float>(config_.inlier_sigmas() * config_.inverse_depth_sigma());
+void SceneRoles::FindNotLoad(const InverseDepth& grid, const PlaneCandidates& candidates,
+                             double sigma) {
+  const float band = static_cast<float>(config_.inlier_sigmas() * sigma);
   const size_t num = candidates.planes.size();
   not_load_.assign(grid.values.size(), 0);
   for (size_t j = 0; j < num; ++j) {
@@ -242,13 +243,13 @@ size_t SceneRoles::MainSupport(const InverseDepth& grid, const PlaneCandidates& 
   return main;
 }
 
-void SceneRoles::Assign(const InverseDepth& grid, const PlaneCandidates& candidates) {
+void SceneRoles::Assign(const InverseDepth& grid, const PlaneCandidates& candidates, double sigma) {
   const Candidates& planes = candidates.planes;
   supports_.clear();
   walls_.clear();
   if (planes.empty()) return;
   MakeCarriers(grid, candidates);
-  FindNotLoad(grid, candidates);
+  FindNotLoad(grid, candidates, sigma);
   Weigh(grid, candidates);
   const size_t main = MainSupport(grid, candidates);
   const Plane& main_plane = carriers_[main].plane;

@@ -24,7 +24,8 @@ class SceneRoles {
  public:
   explicit SceneRoles(const PlaneFilterConfig& config) : config_(config) {}
 
-  void Assign(const InverseDepth& grid, const PlaneCandidates& candidates);
+  // sigma: standard deviation of 1 / z on a flat surface [1/m].
+  void Assign(const InverseDepth& grid, const PlaneCandidates& candidates, double sigma);
 
   // Indices of the candidates. First the main support: the plane that is large, in the middle of
   // the image, roughly level and carries most; the floor carries less than the table that stands on
@@ -40,7 +41,7 @@ class SceneRoles {
 
  private:
   void MakeCarriers(const InverseDepth& grid, const PlaneCandidates& candidates);
-  void FindNotLoad(const InverseDepth& grid, const PlaneCandidates& candidates);
+  void FindNotLoad(const InverseDepth& grid, const PlaneCandidates& candidates, double sigma);
   void Weigh(const InverseDepth& grid, const PlaneCandidates& candidates);
   size_t MainSupport(const InverseDepth& grid, const PlaneCandidates& candidates) const;
 
