@@ -30,15 +30,13 @@ bool ModelSelection::SplitByArea(size_t old, const Input& input) {
   return parts && ReplaceByParts({(*parts)[0], (*parts)[1]}, old, 1, input);
 }
 
-// Gives the place of a selected candidate that explains less than noise would leave of its pixels
-// to one of the other shape, laid over the same. True when that explains more.
+// Gives the place of a selected candidate to one of the other shape, laid over its pixels. True
+// when that explains more.
 bool ModelSelection::Reshape(size_t old, const Input& input) {
-  constexpr double kMaxShare = 0.9;  // of what noise leaves of its pixels
-  constexpr int kMaxPx = 2000;       // [px]: where more is seen, votes tell the shape
-  const Observation& observation = input.observation;
+  constexpr int kMaxPx = 2000;  // [px]: where more is seen, votes tell the shape
   const Candidate& candidate = candidates_[old];
   const Solid& solid = candidate.hypothesis.solid;
-  if (!IsUpright(solid, observation.support)) return false;
+  if (!IsUpright(solid, input.observation.support)) return false;
   is_own_.assign(num_explaining_.size(), 0);
   int num_own_px = 0;
   for (const int32_t pixel : candidate.evidence.explained) {
@@ -46,15 +44,11 @@ bool ModelSelection::Reshape(size_t old, const Input& input) {
     is_own_[static_cast<size_t>(pixel)] = 1;
     num_own_px += candidate.evidence.pixel_weight;
   }
+  if (num_own_px >= kMaxPx) return false;
   Release(old);
   const double gain = Gain(&candidates_[old]);
-  const double noise_in_tolerances = MeasurementSigma(solid.X_CO.translation().z()) /
-                                     SurfaceTolerance(solid.X_CO.translation().z());
-  std::optional<size_t> best;
-  if (num_own_px < kMaxPx &&
-      gain < kMaxShare * (1 - noise_in_tolerances * noise_in_tolerances) * num_own_px) {
-    best = AddOver(is_own_, candidate.evidence.window, solid.shape, input.observation, input);
-  }
+  const auto best =
+      AddOver(is_own_, candidate.evidence.window, solid.shape, input.observation, input);
   const bool is_better = best && candidates_[*best].num_blockers == 0 &&
                          Gain(&candidates_[*best]) > kMinImprovement * gain;
   Select(old);

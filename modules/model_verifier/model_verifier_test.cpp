@@ -108,6 +108,19 @@ TEST(ModelVerifier, TriesTheOtherShapeWhereTheProposedOneFitsBadly) {
   EXPECT_NEAR(list.objects[1].solid.radius(), 0.03, 0.003);
 }
 
+TEST(ModelVerifier, TriesTheOtherShapeWhereTheProposedOneFitsWellToo) {
+  // Only a part of its top is seen of the tin.
+  const RenderedScene scene = RenderText(
+      "object { cylinder { radius_m: 0.045 height_m: 0.05 } y_m: 0.735 }"
+      "object { box { size_x_m: 0.1 size_y_m: 0.04 size_z_m: 0.09 } x_m: -0.01 y_m: 0.66 }");
+  Solid box = Changed(scene.objects[0].solid, {0, 0, 0}, {-0.012, -0.006, 0});
+  box.shape = Shape::kBox;
+  const ObjectList list = Verify(scene, {Proposal(box), Proposal(scene.objects[1].solid)});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  EXPECT_EQ(list.objects[0].solid.shape, Shape::kCylinder);
+  EXPECT_NEAR(list.objects[0].solid.radius(), 0.045, 0.003);
+}
+
 TEST(ModelVerifier, SetsAStackOnEachOther) {
   const RenderedScene scene = RenderText(
       "object { box { size_x_m: 0.2 size_y_m: 0.2 size_z_m: 0.06 } y_m: 0.65 }"
