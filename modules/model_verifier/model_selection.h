@@ -24,6 +24,7 @@ struct Candidate {
   bool is_out = false;  // does not take part
   bool is_selected = false;
   bool is_gain_known = false;
+  bool is_reshaped = false;  // the other shape was tried
   int num_blockers = 0;       // selected candidates in its space
   double misfit_share = 0;    // of its pixels, that count against it as its side is another shape
   double gain = 0;            // [px] explained by it alone, less what speaks against it
@@ -32,7 +33,7 @@ struct Candidate {
   // Makes this the candidate of another hypothesis; the evidence stays.
   void Begin(const Hypothesis& begun) {
     hypothesis = begun;
-    is_refined = is_out = is_selected = is_gain_known = false;
+    is_refined = is_out = is_selected = is_gain_known = is_reshaped = false;
     num_blockers = 0;
     misfit_share = 0;
   }

@@ -34,9 +34,10 @@ bool ModelSelection::SplitByArea(size_t old, const Input& input) {
 // when that explains more.
 bool ModelSelection::Reshape(size_t old, const Input& input) {
   constexpr int kMaxPx = 2000;  // [px]: where more is seen, votes tell the shape
-  const Candidate& candidate = candidates_[old];
+  Candidate& candidate = candidates_[old];
   const Solid& solid = candidate.hypothesis.solid;
-  if (!IsUpright(solid, input.observation.support)) return false;
+  if (candidate.is_reshaped || !IsUpright(solid, input.observation.support)) return false;
+  candidate.is_reshaped = true;
   is_own_.assign(num_explaining_.size(), 0);
   int num_own_px = 0;
   for (const int32_t pixel : candidate.evidence.explained) {
