@@ -24,7 +24,7 @@ struct Candidate {
   bool is_out = false;  // does not take part
   bool is_selected = false;
   bool is_gain_known = false;
-  bool is_reshaped = false;  // the other shape was tried
+  bool is_reshaped = false;   // the other shape was tried
   int num_blockers = 0;       // selected candidates in its space
   double misfit_share = 0;    // of its pixels, that count against it as its side is another shape
   double gain = 0;            // [px] explained by it alone, less what speaks against it

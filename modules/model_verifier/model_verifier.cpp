@@ -10,6 +10,7 @@
 #include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/hidden_ends.h"
 #include "modules/model_verifier/noise_level.h"
+#include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/systematic_misfit.h"
 #include "modules/model_verifier/uncertainty.h"
 
@@ -61,6 +62,7 @@ ObjectList ModelVerifier::Verify(const DepthFrame& frame, const HypothesisList& 
   // Models are selected by every second pixel; what is selected is measured with all.
   Select(hypotheses.hypotheses, observed_.every_second_pixel(), &list.objects);
   settler_.Settle(observed_.every_second_pixel(), &list.objects);
+  if (config_.refine()) RefineExtended(&list.objects);
   Measure(&list);
   DropDoubtful(&list.objects);
   LabelPixels(&list);
@@ -80,6 +82,15 @@ void ModelVerifier::Select(const std::vector<Hypothesis>& hypotheses,
     object.solid = candidate->hypothesis.solid;
     object.evidence = candidate->hypothesis.evidence;
     object.num_votes = candidate->hypothesis.num_votes;
+  }
+}
+
+void ModelVerifier::RefineExtended(std::vector<ObjectModel>* objects) {
+  const Observation observation = observed_.every_second_pixel();
+  for (ObjectModel& object : *objects) {
+    if (object.evidence[2] != Evidence::kAssumed) continue;
+    CastRays(object.solid, observation, &extended_);
+    RefineIfNoWorse(observation, observation, &object.solid, &extended_, &buffers_);
   }
 }
 

@@ -29,6 +29,8 @@ class ModelVerifier {
   // The hypotheses that explain the image best, fitted to all pixels.
   void Select(const std::vector<Hypothesis>& hypotheses, const Observation& observation,
               std::vector<ObjectModel>* objects);
+  // Fits those again of which no lower end was seen: settled, they may have a side that was seen.
+  void RefineExtended(std::vector<ObjectModel>* objects);
   // How certain each object is, what its extents rest on, and how well a cylinder is known.
   void Measure(ObjectList* list);
   // Keeps only what is certain and supported, and numbers it.
@@ -46,6 +48,7 @@ class ModelVerifier {
   // Room that the next frame uses again.
   ObservedImage observed_;
   FitBuffers buffers_;
+  RayEvidence extended_;  // RefineExtended
   std::vector<RayEvidence> evidence_;
   std::vector<Candidate*> selected_;
   std::vector<const RayEvidence*> of_objects_;

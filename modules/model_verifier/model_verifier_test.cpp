@@ -238,6 +238,17 @@ TEST(ModelVerifier, ExtendsAHiddenBottomToTheTable) {
   EXPECT_EQ(list.objects[0].supported_by, 0);
 }
 
+TEST(ModelVerifier, FitsTheSideThatATopHasWhenItStands) {
+  const RenderedScene scene =
+      RenderText("object { cylinder { radius_m: 0.04 height_m: 0.15 } x_m: 0.05 y_m: 0.6 }");
+  Hypothesis top =
+      Proposal(Changed(scene.objects[0].solid, {0, 0, 0.0725}, {0.005, 0.005, -0.145}));
+  top.evidence[2] = Evidence::kAssumed;
+  const ObjectList list = Verify(scene, {top});
+  ASSERT_THAT(list.objects, SizeIs(1));
+  EXPECT_NEAR(list.objects[0].solid.radius(), 0.04, 0.001);
+}
+
 TEST(ModelVerifier, GivesAnEmptyListForAnEmptyFrame) {
   DepthFrame frame;
   frame.header.error = "no image";
