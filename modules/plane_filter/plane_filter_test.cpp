@@ -89,6 +89,18 @@ TEST(PlaneFilterTest, TakesNoWaveOfAFarTableForAnObject) {
   EXPECT_GT(Filter(WavyTable(7)).num_object_points, 3000);
 }
 
+TEST(PlaneFilterTest, FindsTheTableForACameraThatHangsUpsideDown) {
+  // The face of the large box looks upward in the image, and something stands before it.
+  const RenderedScene scene = RenderText(
+      "camera { roll_rad: 3.1416 pitch_rad: 0.8 } "
+      "table { size_x_m: 0.5 size_y_m: 0.5 y_m: 0.65 } "
+      "object { box { size_x_m: 0.3 size_y_m: 0.08 size_z_m: 0.25 } y_m: 0.72 } "
+      "object { box { size_x_m: 0.12 size_y_m: 0.06 size_z_m: 0.1 } y_m: 0.55 yaw_rad: 0.3 } ");
+  const Tabletop tabletop = Filter(scene.depth);
+  ExpectMainSupport(tabletop, scene.table);
+  EXPECT_GT(PartKept(tabletop, scene, kFirstObject, kLastLabel), 0.95);
+}
+
 TEST(PlaneFilterTest, FindsTheTableInTheNoiseOfASensorTooNearForIt) {
   const RenderedScene scene = RenderText(
       "camera { height_m: 0.42 pitch_rad: 0.8 } "

@@ -140,6 +140,10 @@ bool IsFloor(const InverseDepth& grid, const std::vector<Carrier>& carriers, siz
 }
 
 double LevelWeight(double tilt, const PlaneFilterConfig& config) {
+  if (tilt > M_PI / 2) {
+    return std::max(config.wall_weight(),
+                    config.upside_down_weight() * LevelWeight(M_PI - tilt, config));
+  }
   if (tilt <= config.level_tilt_rad()) return 1;
   if (tilt >= config.wall_tilt_rad()) return config.wall_weight();
   const double steepness =
