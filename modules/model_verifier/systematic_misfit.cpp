@@ -37,29 +37,29 @@ struct Misfit {
   int num_points = 0;
 };
 
-// Of those points of which `side_point` makes a SidePoint.
+// Of those points of which `side_point` makes a SidePoint. It is asked twice: where they begin and
+// end, and so the strips between, has to be known first.
 template <class F>
 Misfit MisfitOf(const std::vector<Eigen::Vector3d>& points_O, const F& side_point) {
   double low = std::numeric_limits<double>::max();
   double high = -low;
-  std::vector<SidePoint> points;
-  points.reserve(points_O.size());
+  Misfit misfit;
   for (const Eigen::Vector3d& p : points_O) {
     const std::optional<SidePoint> point = side_point(p);
     if (!point) continue;
     low = std::min(low, point->along);
     high = std::max(high, point->along);
-    points.push_back(*point);
+    ++misfit.num_points;
   }
-  Misfit misfit;
-  misfit.num_points = static_cast<int>(points.size());
   const double strips_per_m = kNumStrips / std::max(1e-6, high - low);
   std::array<double, kNumStrips> sums = {};
   std::array<int, kNumStrips> nums = {};
-  for (const SidePoint& point : points) {
+  for (const Eigen::Vector3d& p : points_O) {
+    const std::optional<SidePoint> point = side_point(p);
+    if (!point) continue;
     const auto strip =
-        std::min(kNumStrips - 1, static_cast<size_t>((point.along - low) * strips_per_m));
-    sums[strip] += point.distance;
+        std::min(kNumStrips - 1, static_cast<size_t>((point->along - low) * strips_per_m));
+    sums[strip] += point->distance;
     ++nums[strip];
   }
   double sum = 0;
