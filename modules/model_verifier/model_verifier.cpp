@@ -86,11 +86,13 @@ void ModelVerifier::Select(const std::vector<Hypothesis>& hypotheses,
 }
 
 void ModelVerifier::RefineExtended(std::vector<ObjectModel>* objects) {
+  constexpr double kMinNewPart = 0.5;  // of its height
   const Observation observation = observed_.every_second_pixel();
-  for (ObjectModel& object : *objects) {
-    if (object.evidence[2] != Evidence::kAssumed) continue;
-    CastRays(object.solid, observation, &extended_);
-    RefineIfNoWorse(observation, observation, &object.solid, &extended_, &buffers_);
+  for (size_t i = 0; i < objects->size(); ++i) {
+    Solid* const solid = &(*objects)[i].solid;
+    if (settler_.growth()[i] < kMinNewPart * solid->height()) continue;
+    CastRays(*solid, observation, &extended_);
+    RefineIfNoWorse(observation, observation, solid, &extended_, &buffers_);
   }
 }
 

@@ -29,7 +29,7 @@ class ModelVerifier {
   // The hypotheses that explain the image best, fitted to all pixels.
   void Select(const std::vector<Hypothesis>& hypotheses, const Observation& observation,
               std::vector<ObjectModel>* objects);
-  // Fits those again of which no lower end was seen: settled, they may have a side that was seen.
+  // Fits those again that are mostly new since they were settled: their side may have been seen.
   void RefineExtended(std::vector<ObjectModel>* objects);
   // How certain each object is, what its extents rest on, and how well a cylinder is known.
   void Measure(ObjectList* list);

@@ -84,6 +84,7 @@ void SupportSettler::Settle(const Observation& observation, std::vector<ObjectMo
     CastRays(solid, observation, &seen_);
     return seen_.num_violating;
   };
+  growth_.assign(objects->size(), 0);
   for (size_t i = 0; i < objects->size(); ++i) {
     ObjectModel& upper = (*objects)[i];
     const double bottom = BottomOf(upper.solid, support);
@@ -97,6 +98,7 @@ void SupportSettler::Settle(const Observation& observation, std::vector<ObjectMo
     for (const Floor& floor : floors_) {
       const Solid extended = Longer(upper.solid, 2, -1, bottom - floor.height);
       if (&floor != &floors_.back() && num_violating(extended) > max_violating) continue;
+      growth_[i] = bottom - floor.height;
       upper.solid = extended;
       upper.supported_by = floor.supported_by;
       break;

@@ -17,6 +17,9 @@ class SupportSettler {
   // height of their tops; supported_by counts from 1 in that order.
   void Settle(const Observation& observation, std::vector<ObjectModel>* objects);
 
+  // [m] by which the last call has extended each object, in their order.
+  const std::vector<double>& growth() const { return growth_; }
+
  private:
   // What an object could stand on.
   struct Floor {
@@ -29,6 +32,7 @@ class SupportSettler {
                        const Plane& support);
 
   std::vector<Floor> floors_;  // lowest first
+  std::vector<double> growth_;
   RayEvidence seen_;
 };
 
