@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "modules/codec/depth_image_parts.h"
 #include "modules/geometry/image_limits.h"
@@ -38,16 +39,16 @@ DepthFrame Decimated(const DepthFrame& frame, int step) {
           Decimation{before.step * step, before.sensor_width, before.sensor_height}};
 }
 
-// The same frame in larger counts, where they are finer than the rounding.
-DepthFrame Rounded(DepthFrame frame) {
-  DepthImage& image = frame.image;
-  const auto factor = static_cast<int>(kRounding / image.depth_scale_m * (1 + 1e-9));
-  if (factor < 2) return frame;
-  image.depth_scale_m *= factor;
-  for (uint16_t& count : image.counts) {
+// The same frame in larger counts; nothing where they would be coarser than the rounding.
+std::optional<DepthFrame> Rounded(const DepthFrame& frame) {
+  const auto factor = static_cast<int>(kRounding / frame.image.depth_scale_m * (1 + 1e-9));
+  if (factor < 2) return std::nullopt;
+  DepthFrame rounded = frame;
+  rounded.image.depth_scale_m *= factor;
+  for (uint16_t& count : rounded.image.counts) {
     if (count > 0) count = static_cast<uint16_t>(std::max(1, (count + factor / 2) / factor));
   }
-  return frame;
+  return rounded;
 }
 
 void DemandConsistent(const DepthFrame& frame) {
@@ -96,10 +97,10 @@ depth_frame_t Encode(const DepthFrame& frame) {
   depth_frame_t message = Write(frame);
   const auto fits = [&] { return message.getEncodedSize() <= kMaxMessageBytes; };
   if (fits()) return message;
-  const DepthFrame rounded = Rounded(frame);
-  message = Write(rounded);
+  const std::optional<DepthFrame> rounded = Rounded(frame);
+  if (rounded) message = Write(*rounded);
   for (int step = 2; !fits() && step <= kMaxEncodedStep; ++step) {
-    message = Write(Decimated(rounded, step));
+    message = Write(Decimated(rounded ? *rounded : frame, step));
   }
   return Fitting(std::move(message));
 }

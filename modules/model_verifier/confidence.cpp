@@ -4,6 +4,7 @@
 
 #include "modules/geometry/sensor_noise.h"
 #include "modules/model_verifier/extents.h"
+#include "modules/model_verifier/support_settling.h"
 
 namespace declutter {
 namespace {
@@ -22,10 +23,14 @@ int NumUnexplained(const Solid& solid, bool is_top_seen, const Observation& unex
                  unexplained);
 }
 
-double Confidence(const ObjectModel& object, const RayEvidence& evidence, int num_unexplained) {
-  const double min_height = std::max(
-      kMinThickness, kMinHeightInSigmas * MeasurementSigma(object.solid.X_CO.translation().z()));
-  if (object.solid.size.minCoeff() < kMinThickness || object.solid.height() < min_height) return 0;
+double Confidence(const ObjectModel& object, const RayEvidence& evidence, int num_unexplained,
+                  const Plane& support) {
+  const Solid& solid = object.solid;
+  if (solid.size.minCoeff() < kMinThickness ||
+      TopOf(solid, support) - BottomOf(solid, support) <
+          kMinHeightInSigmas * MeasurementSigma(solid.X_CO.translation().z())) {
+    return 0;
+  }
   double fit = evidence.Fit();
   if (object.evidence[1] == Evidence::kAssumed) fit *= kAssumedDepthFactor;
   const auto num_explained = static_cast<double>(evidence.explained.size());

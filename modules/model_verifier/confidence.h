@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/geometry/plane.h"
 #include "modules/geometry/solid.h"
 #include "modules/model_verifier/ray_casting.h"
 
@@ -14,6 +15,7 @@ int NumUnexplained(const Solid& solid, bool is_top_seen, const Observation& unex
 // In [0, 1]: mean fit of the explained pixels, times their share of all pixels that speak for or
 // against the solid, unmeasured ones a little; less where its depth is a guess, 0 where it is too
 // thin to be a solid, or lower than the waves of the sensor.
-double Confidence(const ObjectModel& object, const RayEvidence& evidence, int num_unexplained);
+double Confidence(const ObjectModel& object, const RayEvidence& evidence, int num_unexplained,
+                  const Plane& support);
 
 }  // namespace declutter

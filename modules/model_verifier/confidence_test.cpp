@@ -13,7 +13,7 @@ double ConfidenceInBox(double height_m, double z) {
   RayEvidence evidence;
   evidence.explained.resize(400);
   evidence.fit_sum = 400 * kFitUnit;
-  return Confidence(object, evidence, 0);
+  return Confidence(object, evidence, 0, {Eigen::Vector3d::UnitZ(), 1});
 }
 
 TEST(Confidence, IsWholeInABoxWithoutFault) { EXPECT_DOUBLE_EQ(ConfidenceInBox(0.1, 0.9), 1); }

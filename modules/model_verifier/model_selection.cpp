@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kMaxObjects = 255;  // ids fit the label image
 constexpr int kMaxRounds = 3;        // of exchanges
-constexpr size_t kMaxLate = 128;     // candidates beside the hypotheses, in one frame
+constexpr size_t kMaxLate = 256;     // candidates beside the hypotheses, in one frame
 constexpr int8_t kUnknown = -1;
 
 bool Overlap(const PixelWindow& a, const PixelWindow& b) {

@@ -26,7 +26,7 @@ struct Candidate {
   bool is_gain_known = false;
   bool is_reshaped = false;   // the other shape was tried
   int num_blockers = 0;       // selected candidates in its space
-  double misfit_share = 0;    // of its pixels, that count against it as its side is another shape
+  double misfit_share = 0;    // of its pixels, that count against it as it looks like another shape
   double gain = 0;            // [px] explained by it alone, less what speaks against it
   double selection_gain = 0;  // [px] the same when it was chosen
 
@@ -90,7 +90,9 @@ class ModelSelection {
   std::optional<size_t> AddOver(const std::vector<uint8_t>& is_marked, const PixelWindow& window,
                                 std::optional<Shape> but_shape, const Observation& fitted,
                                 const Input& input);
-  bool ReplaceByParts(std::initializer_list<Solid> parts, size_t old, double share_of_old,
+  bool StackInstead(size_t old, const Solid& upper, double step, const Input& input);
+  void FindLowerParts(size_t old, double step);
+  bool ReplaceByParts(const std::vector<Solid>& parts, size_t old, double share_of_old,
                       const Input& input);
   // model_selection_division.cpp
   bool SplitByCandidate(size_t old, const Input& input);
@@ -134,6 +136,7 @@ class ModelSelection {
   PixelGrid unclaimed_;                 // ProposeForRest
   std::vector<uint8_t> is_own_;         // Reshape, ProposeForRest
   BoxSplitter box_splitter_;            // SplitByArea
+  std::vector<Solid> parts_;            // SplitByArea, CutLower
   std::vector<Solid> selected_solids_;  // ProposeForUnexplained
   std::vector<uint8_t> is_explained_;
 };

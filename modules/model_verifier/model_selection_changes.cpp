@@ -27,7 +27,9 @@ bool ModelSelection::SplitByArea(size_t old, const Input& input) {
   std::vector<Eigen::Vector3d>& points_O = input.buffers->explained_O;
   FindExplainedPoints(solid, evidence, input.observation, &points_O);
   const auto parts = box_splitter_.Split(solid, points_O);
-  return parts && ReplaceByParts({(*parts)[0], (*parts)[1]}, old, 1, input);
+  if (!parts) return false;
+  parts_.assign(parts->begin(), parts->end());
+  return ReplaceByParts(parts_, old, 1, input);
 }
 
 // Gives the place of a selected candidate to one of the other shape, laid over its pixels. True
@@ -37,7 +39,6 @@ bool ModelSelection::Reshape(size_t old, const Input& input) {
   Candidate& candidate = candidates_[old];
   const Solid& solid = candidate.hypothesis.solid;
   if (candidate.is_reshaped || !IsUpright(solid, input.observation.support)) return false;
-  candidate.is_reshaped = true;
   is_own_.assign(num_explaining_.size(), 0);
   int num_own_px = 0;
   for (const int32_t pixel : candidate.evidence.explained) {
@@ -46,6 +47,7 @@ bool ModelSelection::Reshape(size_t old, const Input& input) {
     num_own_px += candidate.evidence.pixel_weight;
   }
   if (num_own_px >= kMaxPx) return false;
+  candidate.is_reshaped = true;
   Release(old);
   const double gain = Gain(&candidates_[old]);
   const auto best =
@@ -94,11 +96,45 @@ bool ModelSelection::CutLower(size_t old, const Input& input) {
   const auto step = StepOf(solid, points_O);
   if (!step) return false;
   const Solid upper = Longer(solid, 2, -1, -(0.5 * solid.height() + *step));
-  return ReplaceByParts({upper}, old, 1 - MisfitShare(misfit), input);
+  return StackInstead(old, upper, *step, input) ||
+         ReplaceByParts({upper}, old, 1 - MisfitShare(misfit), input);
+}
+
+// Gives the place of a cylinder to an upper part of it and what that stands on, if both together
+// explain clearly more.
+bool ModelSelection::StackInstead(size_t old, const Solid& upper, double step, const Input& input) {
+  constexpr double kMinShare = 1.3;  // of what the one explains
+  parts_.assign(1, upper);
+  FindLowerParts(old, step);
+  const size_t num_before = num_candidates_;
+  if (ReplaceByParts(parts_, old, kMinShare, input)) {
+    if (instead_.size() == 2) return true;
+    PutBack(Only({old}));
+  }
+  num_candidates_ = num_before;
+  return false;
+}
+
+// Appends to parts_ what reaches from cylinders through the step of a candidate's side, that one
+// among them, down from there.
+void ModelSelection::FindLowerParts(size_t old, double step) {
+  constexpr size_t kMaxParts = 5;
+  constexpr double kMaxOffset = 0.010;  // [m] between the axes
+  const Solid& solid = candidates_[old].hypothesis.solid;
+  const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
+  for (size_t i = 0; i < num_candidates_ && parts_.size() < kMaxParts; ++i) {
+    const Solid& other = candidates_[i].hypothesis.solid;
+    if (other.shape != Shape::kCylinder || candidates_[i].is_out) continue;
+    const Eigen::Vector3d centre_O = X_OC * other.X_CO.translation();
+    const double top = centre_O.z() + 0.5 * other.height();
+    if (centre_O.head<2>().norm() > kMaxOffset || top < step - kMinExtent) continue;
+    const Solid lower = Longer(other, 2, 1, std::min(0.0, step - top));
+    if (lower.height() > kMinExtent) parts_.push_back(lower);
+  }
 }
 
 // Proposes parts of a selected candidate in its place, of whose gain only a share counts.
-bool ModelSelection::ReplaceByParts(std::initializer_list<Solid> parts, size_t old,
+bool ModelSelection::ReplaceByParts(const std::vector<Solid>& parts, size_t old,
                                     double share_of_old, const Input& input) {
   Hypothesis hypothesis = candidates_[old].hypothesis;
   std::optional<size_t> first;

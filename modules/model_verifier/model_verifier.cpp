@@ -11,6 +11,7 @@
 #include "modules/model_verifier/hidden_ends.h"
 #include "modules/model_verifier/noise_level.h"
 #include "modules/model_verifier/refinement.h"
+#include "modules/model_verifier/support_settling.h"
 #include "modules/model_verifier/systematic_misfit.h"
 #include "modules/model_verifier/uncertainty.h"
 
@@ -90,7 +91,10 @@ void ModelVerifier::RefineExtended(std::vector<ObjectModel>* objects) {
   const Observation observation = observed_.every_second_pixel();
   for (size_t i = 0; i < objects->size(); ++i) {
     Solid* const solid = &(*objects)[i].solid;
-    if (settler_.growth()[i] < kMinNewPart * solid->height()) continue;
+    if (settler_.growth()[i] < kMinNewPart * solid->height() ||
+        !IsUpright(*solid, observation.support)) {
+      continue;
+    }
     CastRays(*solid, observation, &extended_);
     RefineIfNoWorse(observation, observation, solid, &extended_, &buffers_);
   }
@@ -118,7 +122,8 @@ void ModelVerifier::Measure(ObjectList* list) {
     FindExplainedPoints(object.solid, evidence_[i], observation, &points_O);
     const bool is_top_seen = IsTopSeen(object.solid, points_O, evidence_[i].pixel_weight);
     object.confidence = static_cast<float>(
-        Confidence(object, evidence_[i], NumUnexplained(object.solid, is_top_seen, unexplained)));
+        Confidence(object, evidence_[i], NumUnexplained(object.solid, is_top_seen, unexplained),
+                   observation.support));
     ends_[i] = EndsOf(object.solid, object.evidence, evidence_[i], points_O,
                       observed_.every_second_pixel(), &buffers_.evidence);
     object.evidence = ExtentEvidence(ends_[i]);

@@ -167,6 +167,23 @@ TEST(ModelVerifier, CutsWhatReachesDownIntoWhatItStandsOn) {
   EXPECT_EQ(upper.supported_by, list.objects[0].id);
 }
 
+TEST(ModelVerifier, SetsACanOnAWiderOneThatVotesHaveMadeOne) {
+  const RenderedScene scene = RenderText(
+      "camera { height_m: 0.45 pitch_rad: 0.6 }"
+      "object { cylinder { radius_m: 0.0335 height_m: 0.15 } y_m: 0.5 }"
+      "object { cylinder { radius_m: 0.027 height_m: 0.08 } y_m: 0.5 on: 0 }");
+  // Both circles were found, each with all that is below it and above.
+  const Solid& lower = scene.objects[0].solid;
+  const Solid wide = Changed(lower, {0, 0, 0.04}, {0, 0, 0.08});
+  const Solid narrow = Changed(wide, {0, 0, 0}, {-0.0115, -0.0115, 0});
+  const ObjectList list = Verify(scene, {Proposal(narrow), Proposal(wide)});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  EXPECT_NEAR(list.objects[0].solid.radius(), 0.0335, 0.001);
+  EXPECT_NEAR(list.objects[0].solid.height(), 0.15, 0.006);
+  EXPECT_NEAR(list.objects[1].solid.radius(), 0.027, 0.001);
+  EXPECT_EQ(list.objects[1].supported_by, 1);
+}
+
 TEST(ModelVerifier, TakesACartonThatBulgesForOneBox) {
   const RenderedScene scene = RenderText(
       "object { box { size_x_m: 0.196 size_y_m: 0.068 size_z_m: 0.17 } y_m: 0.6 yaw_rad: 0.5 }"

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
+#include "modules/geometry/depth_image.h"
 #include "modules/model_verifier/support_settling.h"
 
 namespace declutter {
@@ -34,6 +37,13 @@ class TopFace {
     return above < 0 ? Place::kBelow : Place::kAbove;
   }
 
+  // Unknown outside the image.
+  Place PlaceIn(int u, int v) const {
+    const PinholeCamera& camera = image_.camera;
+    const bool is_inside = u >= 0 && v >= 0 && u < camera.width && v < camera.height;
+    return is_inside ? PlaceOf(u, v) : Place::kUnknown;
+  }
+
   // Steps (du, dv) from a pixel on the face to where it ends beside something lower; nothing when
   // it goes on, or is hidden from there.
   std::optional<double> StepsToFreeEdge(int u, int v, int du, int dv, int max_steps) const {
@@ -47,8 +57,9 @@ class TopFace {
       if (place == Place::kOn && first == 0) continue;
       if (first == 0) first = k;
       if (place == Place::kUnknown) continue;
-      if (place == Place::kBelow) return first - 0.5;
-      return std::nullopt;
+      // Alone it would be noise.
+      const bool is_below = place == Place::kBelow && PlaceIn(x + du, y + dv) != Place::kOn;
+      return is_below ? std::optional(first - 0.5) : std::nullopt;
     }
     return std::nullopt;
   }
@@ -178,12 +189,13 @@ std::optional<double> OutlineMisfit(const Solid& solid, const RayEvidence& evide
       const auto steps = top.StepsToFreeEdge(u, v, du, dv, grid.step);
       if (!steps) continue;
       const Eigen::Vector3d ray_O = top.RayInO(u + *steps * du, v + *steps * dv);
+      if (ray_O.z() >= 0) continue;  // it passes above the face
       const Eigen::Vector3d p = top.Meet(ray_O);
       const OutlinePlace place = is_cylinder ? PlaceAtCircle(solid, p) : PlaceAtRectangle(solid, p);
       // Of the image, a metre along the outward normal takes as much as is across the ray.
       const double cosine = place.outward.dot(ray_O.normalized());
-      const double px_per_m =
-          camera.fx / observation.image.DepthAt(u, v) * std::sqrt(1 - cosine * cosine);
+      const double px_per_m = 0.5 * (camera.fx + camera.fy) / observation.image.DepthAt(u, v) *
+                              std::sqrt(std::max(0.0, 1 - cosine * cosine));
       profile.Add(place.part, place.distance * px_per_m);
     }
   }

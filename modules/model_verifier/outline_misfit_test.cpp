@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/systematic_misfit.h"
 #include "modules/scene_renderer/scene_renderer.h"

@@ -104,7 +104,7 @@ HWY_INLINE Vector SignedDistance(const FaceDistances& q) {
   return hn::Add(hn::Sqrt(square), hn::Min(largest, hn::Zero(Floats())));
 }
 
-// Cosine of a normal in O and that of the face nearest to a point; `is_certain` where the point is
+// Cosine of a normal in O and that of the face that a point is on; `is_certain` where the point is
 // not near an edge.
 struct NormalMatch {
   Vector cosine;

@@ -9,7 +9,7 @@
 namespace declutter {
 namespace {
 
-// [px] that speak for a solid less those that speak against it, as its side may be another shape.
+// [px] that speak for a solid less those that speak against it, as it may be another shape.
 double NetFit(const RayEvidence& evidence, double misfit_share) {
   return evidence.Balance() - misfit_share * evidence.Fit();
 }

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace declutter {
 
 double IndependentNoise(const InverseDepth& image, std::vector<float>* buffer) {
   constexpr int kRowStep = 8, kColumnStep = 4;
-  constexpr size_t kMinNum = 100;
+  constexpr size_t kMinNum = 50;
   // Of a normal deviate, the median of its absolute value; and of one with coefficients 1, -2, 1.
   constexpr double kMedianOfSigma = 0.6745;
   const double sigma_of_difference = std::sqrt(6.0);
