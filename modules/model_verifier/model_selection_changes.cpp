@@ -96,8 +96,9 @@ bool ModelSelection::CutLower(size_t old, const Input& input) {
   const auto step = StepOf(solid, points_O);
   if (!step) return false;
   const Solid upper = Longer(solid, 2, -1, -(0.5 * solid.height() + *step));
-  return StackInstead(old, upper, *step, input) ||
-         ReplaceByParts({upper}, old, 1 - MisfitShare(misfit), input);
+  if (StackInstead(old, upper, *step, input)) return true;
+  parts_.assign(1, upper);
+  return ReplaceByParts(parts_, old, 1 - MisfitShare(misfit), input);
 }
 
 // Gives the place of a cylinder to an upper part of it and what that stands on, if both together
