@@ -121,6 +121,7 @@ bool ModelSelection::StackInstead(size_t old, const Solid& upper, double step, c
 void ModelSelection::FindLowerParts(size_t old, double step) {
   constexpr size_t kMaxParts = 5;
   constexpr double kMaxOffset = 0.010;  // [m] between the axes
+  constexpr double kMinCosine = 0.99;   // of the angle between them
   const Solid& solid = candidates_[old].hypothesis.solid;
   const Eigen::Isometry3d X_OC = solid.X_CO.inverse();
   for (size_t i = 0; i < num_candidates_ && parts_.size() < kMaxParts; ++i) {
@@ -128,7 +129,10 @@ void ModelSelection::FindLowerParts(size_t old, double step) {
     if (other.shape != Shape::kCylinder || candidates_[i].is_out) continue;
     const Eigen::Vector3d centre_O = X_OC * other.X_CO.translation();
     const double top = centre_O.z() + 0.5 * other.height();
-    if (centre_O.head<2>().norm() > kMaxOffset || top < step - kMinExtent) continue;
+    if (X_OC.linear().row(2).dot(other.X_CO.linear().col(2)) < kMinCosine ||
+        centre_O.head<2>().norm() > kMaxOffset || top < step - kMinExtent) {
+      continue;
+    }
     const Solid lower = Longer(other, 2, 1, std::min(0.0, step - top));
     if (lower.height() > kMinExtent) parts_.push_back(lower);
   }
