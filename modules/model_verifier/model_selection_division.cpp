@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "modules/geometry/plane.h"
+#include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/free_space.h"
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/support_settling.h"
@@ -25,7 +26,10 @@ bool ModelSelection::SplitByCandidate(size_t old, const Input& input) {
       evidence.num_violating < min_seen) {
     return false;
   }
-  const int num_seen = NumSeenThrough(solid, input.observation, &input.buffers->evidence);
+  // Of a top alone hardly anything is deep enough inside to tell that.
+  const int num_seen = solid.size.minCoeff() < kMinExtent
+                           ? evidence.num_violating
+                           : NumSeenThrough(solid, input.observation, &input.buffers->evidence);
   if (num_seen < min_seen) return false;
   FindPartsInside(old);
   if (inside_.size() > kMaxTries) inside_.resize(kMaxTries);

@@ -230,6 +230,30 @@ TEST(ModelVerifier, DividesABoxThatIsSeenThrough) {
   EXPECT_LT((list.objects[1].solid.size - right.size).norm(), 0.008);
 }
 
+TEST(ModelVerifier, DividesABoxOverTwoTopsThatAreSeenFromAbove) {
+  const RenderedScene scene = RenderText(
+      "camera { height_m: 0.9 pitch_rad: 1.5 } table { y_m: 0 }"
+      "object { cylinder { radius_m: 0.023 height_m: 0.15 } x_m: -0.0235 y_m: 0.05 }"
+      "object { cylinder { radius_m: 0.023 height_m: 0.15 } x_m: 0.0235 y_m: 0.05 }");
+  // Of both only the top was proposed.
+  const auto top_of = [](const Solid& solid) {
+    Hypothesis top = Proposal(Changed(solid, {0, 0, 0.0725}, {0, 0, -0.145}));
+    top.evidence[2] = Evidence::kAssumed;
+    return top;
+  };
+  Solid both = scene.objects[0].solid;
+  both.shape = Shape::kBox;
+  both.X_CO.translation() =
+      0.5 * (both.X_CO.translation() + scene.objects[1].solid.X_CO.translation());
+  both.size.x() += 0.047;
+  const ObjectList list = Verify(scene, {top_of(both), top_of(scene.objects[0].solid)});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  for (const ObjectModel& object : list.objects) {
+    EXPECT_EQ(object.solid.shape, Shape::kCylinder);
+    EXPECT_NEAR(object.solid.radius(), 0.023, 0.002);
+  }
+}
+
 TEST(ModelVerifier, TakesNoPartOfABowlForACylinder) {
   std::string bowl = "object { cylinder { radius_m: 0.08 height_m: 0.05 } y_m: 0.65 }";
   for (int i = 0; i < 8; ++i) {
