@@ -67,7 +67,12 @@ class KillTest : public testing::Test {
   }
 
   bool IsBack(const std::string& program, pid_t killed) const {
-    return Eventually([&] { return Find(program) > 0 && Find(program) != killed; }, kLimit_s);
+    return Eventually(
+        [&] {
+          const pid_t found = Find(program);
+          return found > 0 && found != killed;
+        },
+        kLimit_s);
   }
 
   TemporaryFolder folder_;
