@@ -49,7 +49,7 @@ bool ModelSelection::Reshape(size_t old, const Input& input) {
   if (num_own_px >= kMaxPx) return false;
   candidate.is_reshaped = true;
   Release(old);
-  const double gain = Gain(&candidates_[old]);
+  const double gain = Gain(&candidate);
   const auto best =
       AddOver(is_own_, candidate.evidence.window, solid.shape, input.observation, input);
   const bool is_better = best && candidates_[*best].num_blockers == 0 &&

@@ -23,6 +23,13 @@ Hypothesis Proposal(const Solid& solid) {
   return hypothesis;
 }
 
+// The same where no lower end was seen.
+Hypothesis ProposalOfUpperPart(const Solid& solid) {
+  Hypothesis hypothesis = Proposal(solid);
+  hypothesis.evidence[2] = Evidence::kAssumed;
+  return hypothesis;
+}
+
 // The solid, moved and resized in its own frame.
 Solid Changed(Solid solid, const Eigen::Vector3d& shift_O, const Eigen::Vector3d& growth) {
   solid.X_CO.translation() += solid.X_CO.linear() * shift_O;
@@ -59,6 +66,13 @@ Solid RefineOn(const RenderedScene& scene, const Solid& solid) {
   observed.Set(scene.depth, scene.table);
   FitPoints buffer;
   return Refine(solid, observed.every_pixel(), &buffer);
+}
+
+// What is made of a can and a box before it when the can is proposed as a box with this growth.
+ObjectList VerifyCanAsBox(const RenderedScene& scene, const Eigen::Vector3d& growth) {
+  Solid box = Changed(scene.objects[0].solid, {0, 0, 0}, growth);
+  box.shape = Shape::kBox;
+  return Verify(scene, {Proposal(box), Proposal(scene.objects[1].solid)});
 }
 
 constexpr char kBox[] =
@@ -100,9 +114,7 @@ TEST(ModelVerifier, TriesTheOtherShapeWhereTheProposedOneFitsBadly) {
   const RenderedScene scene = RenderText(
       "object { cylinder { radius_m: 0.03 height_m: 0.1 } y_m: 0.7 }"
       "object { box { size_x_m: 0.1 size_y_m: 0.04 size_z_m: 0.07 } x_m: -0.06 y_m: 0.62 }");
-  Solid box = Changed(scene.objects[0].solid, {0, 0, 0}, {-0.008, -0.008, 0});
-  box.shape = Shape::kBox;
-  const ObjectList list = Verify(scene, {Proposal(box), Proposal(scene.objects[1].solid)});
+  const ObjectList list = VerifyCanAsBox(scene, {-0.008, -0.008, 0});
   ASSERT_THAT(list.objects, SizeIs(2));
   EXPECT_EQ(list.objects[1].solid.shape, Shape::kCylinder);
   EXPECT_NEAR(list.objects[1].solid.radius(), 0.03, 0.003);
@@ -113,9 +125,7 @@ TEST(ModelVerifier, TriesTheOtherShapeWhereTheProposedOneFitsWellToo) {
   const RenderedScene scene = RenderText(
       "object { cylinder { radius_m: 0.045 height_m: 0.05 } y_m: 0.735 }"
       "object { box { size_x_m: 0.1 size_y_m: 0.04 size_z_m: 0.09 } x_m: -0.01 y_m: 0.66 }");
-  Solid box = Changed(scene.objects[0].solid, {0, 0, 0}, {-0.012, -0.006, 0});
-  box.shape = Shape::kBox;
-  const ObjectList list = Verify(scene, {Proposal(box), Proposal(scene.objects[1].solid)});
+  const ObjectList list = VerifyCanAsBox(scene, {-0.012, -0.006, 0});
   ASSERT_THAT(list.objects, SizeIs(2));
   EXPECT_EQ(list.objects[0].solid.shape, Shape::kCylinder);
   EXPECT_NEAR(list.objects[0].solid.radius(), 0.045, 0.003);
@@ -126,8 +136,8 @@ TEST(ModelVerifier, SetsAStackOnEachOther) {
       "object { box { size_x_m: 0.2 size_y_m: 0.2 size_z_m: 0.06 } y_m: 0.65 }"
       "object { cylinder { radius_m: 0.04 height_m: 0.1 } y_m: 0.65 on: 0 }");
   // Of the can only the upper part was seen.
-  Hypothesis can = Proposal(Changed(scene.objects[1].solid, {0, 0, 0.01}, {0, 0, -0.02}));
-  can.evidence[2] = Evidence::kAssumed;
+  const Hypothesis can =
+      ProposalOfUpperPart(Changed(scene.objects[1].solid, {0, 0, 0.01}, {0, 0, -0.02}));
   const ObjectList list = Verify(scene, {can, Proposal(scene.objects[0].solid)});
   ASSERT_THAT(list.objects, SizeIs(2));
   const ObjectModel& upper = list.objects[1];
@@ -237,9 +247,7 @@ TEST(ModelVerifier, DividesABoxOverTwoTopsThatAreSeenFromAbove) {
       "object { cylinder { radius_m: 0.023 height_m: 0.15 } x_m: 0.0235 y_m: 0.05 }");
   // Of both only the top was proposed.
   const auto top_of = [](const Solid& solid) {
-    Hypothesis top = Proposal(Changed(solid, {0, 0, 0.0725}, {0, 0, -0.145}));
-    top.evidence[2] = Evidence::kAssumed;
-    return top;
+    return ProposalOfUpperPart(Changed(solid, {0, 0, 0.0725}, {0, 0, -0.145}));
   };
   Solid both = scene.objects[0].solid;
   both.shape = Shape::kBox;
@@ -271,8 +279,8 @@ TEST(ModelVerifier, TakesNoPartOfABowlForACylinder) {
 
 TEST(ModelVerifier, ExtendsAHiddenBottomToTheTable) {
   const RenderedScene scene = RenderText(kBox);
-  Hypothesis upper = Proposal(Changed(scene.objects[0].solid, {0, 0, 0.03}, {0, 0, -0.06}));
-  upper.evidence[2] = Evidence::kAssumed;
+  const Hypothesis upper =
+      ProposalOfUpperPart(Changed(scene.objects[0].solid, {0, 0, 0.03}, {0, 0, -0.06}));
   const ObjectList list = Verify(scene, {upper});
   ASSERT_THAT(list.objects, SizeIs(1));
   EXPECT_NEAR(list.objects[0].solid.height(), 0.13, 0.003);
@@ -282,9 +290,8 @@ TEST(ModelVerifier, ExtendsAHiddenBottomToTheTable) {
 TEST(ModelVerifier, FitsTheSideThatATopHasWhenItStands) {
   const RenderedScene scene =
       RenderText("object { cylinder { radius_m: 0.04 height_m: 0.15 } x_m: 0.05 y_m: 0.6 }");
-  Hypothesis top =
-      Proposal(Changed(scene.objects[0].solid, {0, 0, 0.0725}, {0.005, 0.005, -0.145}));
-  top.evidence[2] = Evidence::kAssumed;
+  const Hypothesis top =
+      ProposalOfUpperPart(Changed(scene.objects[0].solid, {0, 0, 0.0725}, {0.005, 0.005, -0.145}));
   const ObjectList list = Verify(scene, {top});
   ASSERT_THAT(list.objects, SizeIs(1));
   EXPECT_NEAR(list.objects[0].solid.radius(), 0.04, 0.001);

@@ -16,8 +16,8 @@ namespace {
 constexpr size_t kPartsPerSide = 6;
 constexpr size_t kNumSides = 4;
 constexpr size_t kNumParts = kNumSides * kPartsPerSide;  // of an outline
-constexpr int kMaxGap =
-    8;  // [px] without depth, as in a shadow, beyond which something lower is seen
+// [px] without depth, as in a shadow, beyond which something lower is seen.
+constexpr int kMaxGap = 8;
 
 // The upper face of a solid, in an image.
 class TopFace {
@@ -28,37 +28,31 @@ class TopFace {
   bool IsSeenFromAbove() const { return X_OC_.translation().z() > height_; }
 
   enum class Place : int8_t { kUnknown, kOn, kBelow, kAbove };
+  // Of what pixel (u, v) measured; unknown outside the image.
   Place PlaceOf(int u, int v) const {
+    const PinholeCamera& camera = image_.camera;
+    if (u < 0 || v < 0 || u >= camera.width || v >= camera.height) return Place::kUnknown;
     const double z = image_.DepthAt(u, v);
     if (z == 0) return Place::kUnknown;
     const double above =
-        X_OC_.linear().row(2).dot(z * image_.camera.Ray(u, v)) + X_OC_.translation().z() - height_;
+        X_OC_.linear().row(2).dot(z * camera.Ray(u, v)) + X_OC_.translation().z() - height_;
     if (std::abs(above) < SurfaceTolerance(z)) return Place::kOn;
     return above < 0 ? Place::kBelow : Place::kAbove;
-  }
-
-  // Unknown outside the image.
-  Place PlaceIn(int u, int v) const {
-    const PinholeCamera& camera = image_.camera;
-    const bool is_inside = u >= 0 && v >= 0 && u < camera.width && v < camera.height;
-    return is_inside ? PlaceOf(u, v) : Place::kUnknown;
   }
 
   // Steps (du, dv) from a pixel on the face to where it ends beside something lower; nothing when
   // it goes on, or is hidden from there.
   std::optional<double> StepsToFreeEdge(int u, int v, int du, int dv, int max_steps) const {
-    const PinholeCamera& camera = image_.camera;
     int first = 0;  // step that is not on the face
     for (int k = 1; k <= (first == 0 ? max_steps : first + kMaxGap); ++k) {
       const int x = u + k * du;
       const int y = v + k * dv;
-      if (x < 0 || y < 0 || x >= camera.width || y >= camera.height) return std::nullopt;
       const Place place = PlaceOf(x, y);
       if (place == Place::kOn && first == 0) continue;
       if (first == 0) first = k;
       if (place == Place::kUnknown) continue;
       // Alone it would be noise.
-      const bool is_below = place == Place::kBelow && PlaceIn(x + du, y + dv) != Place::kOn;
+      const bool is_below = place == Place::kBelow && PlaceOf(x + du, y + dv) != Place::kOn;
       return is_below ? std::optional(first - 0.5) : std::nullopt;
     }
     return std::nullopt;

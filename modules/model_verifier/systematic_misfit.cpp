@@ -103,6 +103,13 @@ Misfit OfBox(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O, i
   });
 }
 
+// As MisfitShare, of so many pixels between the free edge of a top and its outline.
+double OutlineMisfitShare(double misfit_px) {
+  constexpr double kNoise = 0.5;  // [px^2] that noise leaves of a part of an edge
+  constexpr double kWeight = 0.1;
+  return std::clamp(kWeight * (misfit_px * misfit_px - kNoise), 0.0, kMaxShare);
+}
+
 }  // namespace
 
 double SystematicMisfit(const Solid& solid, const std::vector<Eigen::Vector3d>& points_O) {
@@ -165,12 +172,6 @@ double MisfitShare(double misfit_sigmas) {
   constexpr double kNoise = 0.1;  // [sigma^2] that noise, which neighbours share, leaves of a strip
   constexpr double kWeight = 0.4;
   return std::clamp(kWeight * (misfit_sigmas * misfit_sigmas - kNoise), 0.0, kMaxShare);
-}
-
-double OutlineMisfitShare(double misfit_px) {
-  constexpr double kNoise = 0.5;  // [px^2] that noise leaves of a part of an edge
-  constexpr double kWeight = 0.1;
-  return std::clamp(kWeight * (misfit_px * misfit_px - kNoise), 0.0, kMaxShare);
 }
 
 double MisfitShareOf(const Solid& solid, const RayEvidence& evidence,

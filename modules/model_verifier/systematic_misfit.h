@@ -25,9 +25,6 @@ std::optional<double> StepOf(const Solid& cylinder, const std::vector<Eigen::Vec
 // Share of what speaks for a solid that a misfit of so many sigma of the sensor's noise takes.
 double MisfitShare(double misfit_sigmas);
 
-// The same of so many pixels between the free edge of a top and its outline.
-double OutlineMisfitShare(double misfit_px);
-
 // The same of the systematic misfit of what a solid explains; where too little of its side is seen
 // to tell, of its outline. points_O is a buffer.
 double MisfitShareOf(const Solid& solid, const RayEvidence& evidence,

@@ -1,8 +1,9 @@
 #include "modules/plane_filter/independent_noise.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "modules/geometry/quantile.h"
 
 namespace declutter {
 
@@ -22,9 +23,7 @@ double IndependentNoise(const InverseDepth& image, std::vector<float>* buffer) {
     }
   }
   if (differences.size() < kMinNum) return 0;
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return *middle / (kMedianOfSigma * sigma_of_difference);
+  return Quantile(&differences, 0.5f) / (kMedianOfSigma * sigma_of_difference);
 }
 
 }  // namespace declutter

@@ -67,12 +67,7 @@ class KillTest : public testing::Test {
   }
 
   bool IsBack(const std::string& program, pid_t killed) const {
-    return Eventually(
-        [&] {
-          const pid_t found = Find(program);
-          return found > 0 && found != killed;
-        },
-        kLimit_s);
+    return IsReplaced([&] { return Find(program); }, killed, kLimit_s);
   }
 
   TemporaryFolder folder_;

@@ -97,6 +97,16 @@ bool Eventually(const std::function<bool()>& condition, double limit_s) {
   return true;
 }
 
+bool IsReplaced(const std::function<pid_t()>& find, pid_t old, double limit_s) {
+  return Eventually(
+      [&] {
+        // Between two looks it may end.
+        const pid_t found = find();
+        return found > 0 && found != old;
+      },
+      limit_s);
+}
+
 std::vector<std::string> MessagesOf(const std::string& channel, const std::string& log) {
   std::vector<std::string> messages;
   lcm_eventlog_t* events = lcm_eventlog_create(log.c_str(), "r");

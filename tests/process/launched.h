@@ -59,6 +59,9 @@ std::vector<pid_t> ProcessesWith(const std::string& word);
 // True when condition becomes true within limit_s.
 bool Eventually(const std::function<bool()>& condition, double limit_s = 10.0);
 
+// True as soon as find, which gives 0 where there is none, gives another process than the old one.
+bool IsReplaced(const std::function<pid_t()>& find, pid_t old, double limit_s = 10.0);
+
 // The bytes of the messages on a channel, in the order of the LCM log.
 std::vector<std::string> MessagesOf(const std::string& channel, const std::string& log);
 

@@ -35,10 +35,7 @@ TEST_F(RestartTest, BringsAKilledModuleBackEachTime) {
       pid_t killed = 0;
       ASSERT_TRUE(Eventually([&] { return (killed = Find(program)) > 0; })) << Err();
       kill(killed, SIGKILL);
-      ASSERT_TRUE(Eventually([&] {
-        const pid_t found = Find(program);
-        return found > 0 && found != killed;
-      })) << Err();
+      ASSERT_TRUE(IsReplaced([&] { return Find(program); }, killed)) << Err();
     }
   }
   launcher.Signal(SIGTERM);
