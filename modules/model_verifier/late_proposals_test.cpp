@@ -68,6 +68,21 @@ TEST(LateProposer, LaysACylinderOverWhatIsSeenOfOne) {
   EXPECT_NEAR(found.objects[1].solid.radius(), 0.035, 0.002);
 }
 
+TEST(LateProposer, PutsTheBodyOfAStripBehindWhatHidesIt) {
+  // Of the box, a strip along the right edge of its top is seen, and the body is left of it.
+  const RenderedScene scene =
+      Render(ParseScene("object { cylinder { radius_m: 0.05 height_m: 0.2 } x_m: 0.1 y_m: 0.6 }"
+                        "object { box { size_x_m: 0.075 size_y_m: 0.106 size_z_m: 0.038 }"
+                        "  x_m: 0.15 y_m: 0.7 yaw_rad: -0.2 }",
+                        "scene"),
+             1);
+  const ObjectList found = VerifyFirst(scene);
+  ASSERT_THAT(found.objects, SizeIs(2));
+  const Eigen::Vector3d centre_O =
+      scene.objects[1].solid.X_CO.inverse() * found.objects[0].solid.X_CO.translation();
+  EXPECT_LT(centre_O.cwiseAbs().maxCoeff(), 0.03);
+}
+
 TEST(LateProposer, TellsHowMuchASolidWasLaidOver) {
   const RenderedScene scene = SceneWith(kHiddenBox);
   int num_seen = 0;

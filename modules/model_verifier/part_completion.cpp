@@ -22,6 +22,17 @@ constexpr float kMaxUnseen = 0.020f;     // [m] of side above the support
 
 struct Range {
   float low, high;
+
+  float length() const { return high - low; }
+};
+
+// Where the body of a part may end along an axis: where the part does, or on either side of what is
+// too thin to be all of it.
+struct PossibleEnds {
+  std::array<Range, 2> ranges;
+  size_t num;
+
+  bool is_assumed() const { return num > 1; }
 };
 
 Range Quantiles(std::vector<float>* values, float low, float high) {
@@ -72,40 +83,46 @@ Hypothesis Standing(Shape shape, const Range& heights, const Eigen::Vector2f& ce
   return hypothesis;
 }
 
-// along is a buffer.
-std::optional<Hypothesis> BoxOver(const SurfacePart& part, const Range& heights,
-                                  const Eigen::Isometry3d& X_CT, std::vector<float>* along) {
+PossibleEnds EndsAround(const Range& seen, const Range& seen_across) {
+  if (seen.length() > static_cast<float>(kMinExtent)) return {{seen, seen}, 1};
+  const float depth = std::clamp(0.5f * seen_across.length(), 0.03f, 0.10f);
+  return {{Range{seen.low, seen.low + depth}, Range{seen.high - depth, seen.high}}, 2};
+}
+
+// Appends the boxes along the outline of a part that it may be the surface of. along is a buffer.
+void AddBoxesOver(const SurfacePart& part, const Range& heights, const Eigen::Isometry3d& X_CT,
+                  std::vector<float>* along, std::vector<Hypothesis>* boxes) {
   const auto direction = EdgeDirection(part.outline);
-  if (!direction) return std::nullopt;
+  if (!direction) return;
   const std::array<Eigen::Vector2f, 2> axes = {*direction, {-direction->y(), direction->x()}};
-  std::array<Range, 2> ends;
-  std::array<bool, 2> is_assumed = {};
+  std::array<Range, 2> seen;
   for (size_t i = 0; i < 2; ++i) {
     along->clear();
     for (const auto* points : {&part.tops, &part.sides}) {
       for (const Eigen::Vector3f& p : *points) along->push_back(axes[i].dot(p.head<2>()));
     }
-    ends[i] = Quantiles(along, 0.01f, 0.99f);
+    seen[i] = Quantiles(along, 0.01f, 0.99f);
   }
-  for (size_t i = 0; i < 2; ++i) {
-    if (ends[i].high - ends[i].low > static_cast<float>(kMinExtent)) continue;
-    // Only one side was seen: the body is behind it, as the camera is above the origin.
-    const float depth = std::clamp(0.5f * (ends[1 - i].high - ends[1 - i].low), 0.03f, 0.10f);
-    (ends[i].low > 0 ? ends[i].high : ends[i].low) =
-        ends[i].low > 0 ? ends[i].low + depth : ends[i].high - depth;
-    is_assumed[i] = true;
+  const std::array<PossibleEnds, 2> ends = {EndsAround(seen[0], seen[1]),
+                                            EndsAround(seen[1], seen[0])};
+  for (size_t i = 0; i < ends[0].num; ++i) {
+    for (size_t k = 0; k < ends[1].num; ++k) {
+      const Range& x = ends[0].ranges[i];
+      const Range& y = ends[1].ranges[k];
+      const Eigen::Vector2f size(x.length(), y.length());
+      if (size.minCoeff() < static_cast<float>(kMinExtent) ||
+          size.maxCoeff() > static_cast<float>(kMaxExtent)) {
+        continue;
+      }
+      const Eigen::Vector2f centre =
+          0.5f * (x.low + x.high) * axes[0] + 0.5f * (y.low + y.high) * axes[1];
+      Hypothesis& box =
+          boxes->emplace_back(Standing(Shape::kBox, heights, centre, axes[0], size, X_CT));
+      for (size_t axis = 0; axis < 2; ++axis) {
+        if (ends[axis].is_assumed()) box.evidence[axis] = Evidence::kAssumed;
+      }
+    }
   }
-  const Eigen::Vector2f size(ends[0].high - ends[0].low, ends[1].high - ends[1].low);
-  if (size.minCoeff() < static_cast<float>(kMinExtent) ||
-      size.maxCoeff() > static_cast<float>(kMaxExtent))
-    return std::nullopt;
-  const Eigen::Vector2f centre =
-      0.5f * (ends[0].low + ends[0].high) * axes[0] + 0.5f * (ends[1].low + ends[1].high) * axes[1];
-  Hypothesis box = Standing(Shape::kBox, heights, centre, axes[0], size, X_CT);
-  for (size_t i = 0; i < 2; ++i) {
-    if (is_assumed[i]) box.evidence[i] = Evidence::kAssumed;
-  }
-  return box;
 }
 
 std::optional<Hypothesis> CylinderOver(const SurfacePart& part, const Range& heights,
@@ -155,7 +172,7 @@ const std::vector<Hypothesis>& PartCompletion::SolidsOver(const SurfacePart& par
   solids_.clear();
   const Range heights = HeightsOf(part, &values_, &side_heights_);
   if (heights.high - heights.low <= 0) return solids_;
-  if (const auto box = BoxOver(part, heights, X_CT, &values_)) solids_.push_back(*box);
+  AddBoxesOver(part, heights, X_CT, &values_, &solids_);
   if (const auto cylinder = CylinderOver(part, heights, X_CT)) solids_.push_back(*cylinder);
   return solids_;
 }
