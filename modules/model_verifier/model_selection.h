@@ -75,7 +75,9 @@ class ModelSelection {
   void ProposeForUnexplained(const Input& input);
   // model_selection_exchange.cpp
   bool Exchange(const Input& input);
+  bool TryInPlaceOfBlockers(size_t index, const Input& input);
   bool IsWorthTrying(size_t index);
+  bool ReplaceWithRest(size_t index, const Input& input);
   const std::vector<size_t>& BlockersOf(size_t index);
   const std::vector<size_t>& Only(std::initializer_list<size_t> indices);
   bool Replace(const std::vector<size_t>& old, std::optional<size_t> first, const Input& input,
@@ -129,6 +131,7 @@ class ModelSelection {
   PartCompletion part_completion_;
   // Buffers of the functions that are named.
   std::vector<size_t> blockers_;        // BlockersOf
+  std::vector<size_t> old_;             // ReplaceWithRest
   std::vector<size_t> only_;            // Only
   std::vector<size_t> order_;           // Exchange
   std::vector<size_t> instead_;         // Replace

@@ -32,8 +32,8 @@ bool ModelSelection::SplitByArea(size_t old, const Input& input) {
   return ReplaceByParts(parts_, old, 1, input);
 }
 
-// Gives the place of a selected candidate to one of the other shape, laid over its pixels. True
-// when that explains more.
+// Gives the place of a selected candidate to one of the other shape, laid over its pixels, or that
+// of others that keep this one out. True when that explains more.
 bool ModelSelection::Reshape(size_t old, const Input& input) {
   constexpr int kMaxPx = 2000;  // [px]: where more is seen, votes tell the shape
   Candidate& candidate = candidates_[old];
@@ -55,7 +55,8 @@ bool ModelSelection::Reshape(size_t old, const Input& input) {
   const bool is_better = best && candidates_[*best].num_blockers == 0 &&
                          Gain(&candidates_[*best]) > kMinImprovement * gain;
   Select(old);
-  return is_better && Replace(Only({old}), best, input);
+  if (is_better) return Replace(Only({old}), best, input);
+  return best && TryInPlaceOfBlockers(*best, input);
 }
 
 // Adds solids over the marked pixels of a window, refined on another observation; of the shapes,

@@ -1,6 +1,9 @@
 #include <algorithm>
 
+#include "modules/geometry/plane.h"
+#include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/model_selection.h"
+#include "modules/model_verifier/support_settling.h"
 
 namespace declutter {
 
@@ -15,7 +18,7 @@ bool ModelSelection::Exchange(const Input& input) {
     has_changed |= candidates_[old].is_selected && Replace(Only({old}), std::nullopt, input);
   }
   for (size_t i = 0; i < num_candidates_; ++i) {
-    if (IsWorthTrying(i)) has_changed |= Replace(BlockersOf(i), i, input);
+    has_changed |= TryInPlaceOfBlockers(i, input);
   }
   order_ = selected_;
   for (const size_t old : order_) {
@@ -24,6 +27,13 @@ bool ModelSelection::Exchange(const Input& input) {
                     CutLower(old, input) || Reshape(old, input) || Unite(old, input));
   }
   return has_changed;
+}
+
+// Gives the place of those that keep a candidate out to it, where that is worth trying. True when
+// it explains more, alone or with what it leaves to others.
+bool ModelSelection::TryInPlaceOfBlockers(size_t index, const Input& input) {
+  return IsWorthTrying(index) &&
+         (Replace(BlockersOf(index), index, input) || ReplaceWithRest(index, input));
 }
 
 // True for a candidate that explains what nobody else does, or about as much as all those together
@@ -37,6 +47,43 @@ bool ModelSelection::IsWorthTrying(size_t index) {
   double gain = 0;
   for (const size_t i : BlockersOf(index)) gain += candidates_[i].selection_gain;
   return candidate.evidence.Balance() > kMinShare * gain;
+}
+
+// Gives the place of those that keep a candidate out to it and to what they leave: the parts of
+// them above its top, and solids laid over the rest. Only where much speaks for the candidate that
+// nobody explains: what bulges leaves some. True when they explain more.
+bool ModelSelection::ReplaceWithRest(size_t index, const Input& input) {
+  constexpr double kMinNew = 0.2;  // of what speaks for it, from pixels nobody else explains
+  const Plane& support = input.observation.support;
+  Candidate& candidate = candidates_[index];
+  if (!candidate.is_refined) {
+    RefineCandidate(&candidate, input.observation, input);
+    OnMoved(index);
+  }
+  if (candidate.is_out || candidate.num_blockers == 0 ||
+      Gain(&candidate) <
+          std::max(config_.min_explained_px(), kMinNew * candidate.evidence.Balance())) {
+    return false;
+  }
+  const Solid& solid = candidate.hypothesis.solid;
+  const double top = TopOf(solid, support);
+  const auto reaches_through_top = [&](const Solid& other) {
+    return IsUpright(solid, support) && IsUpright(other, support) &&
+           TopOf(other, support) > top + kMinExtent && BottomOf(other, support) < top - kMinExtent;
+  };
+  const size_t num_before = num_candidates_;
+  old_ = BlockersOf(index);
+  for (const size_t i : old_) {
+    const Solid& blocker = candidates_[i].hypothesis.solid;
+    if (!reaches_through_top(blocker)) {
+      ProposeForRest(i, index, input);
+    } else if (!IsOneColumn(candidate, blocker, input)) {
+      AddUpperPart(i, top, input);
+    }
+  }
+  if (num_candidates_ > num_before && Replace(old_, index, input)) return true;
+  num_candidates_ = num_before;
+  return false;
 }
 
 const std::vector<size_t>& ModelSelection::BlockersOf(size_t index) {

@@ -262,6 +262,42 @@ TEST(ModelVerifier, DividesABoxOverTwoTopsThatAreSeenFromAbove) {
   }
 }
 
+TEST(ModelVerifier, GivesBackWhatABoxTookOfItsNeighbour) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.12 size_y_m: 0.04 size_z_m: 0.073 } y_m: 0.65 yaw_rad: 0.9 }"
+      "object { box { size_x_m: 0.046 size_y_m: 0.044 size_z_m: 0.066 }"
+      "  x_m: -0.048 y_m: 0.58 yaw_rad: 0.9 }");
+  const Solid& box = scene.objects[0].solid;
+  const Solid& neighbour = scene.objects[1].solid;
+  // It was taken to go on through the neighbour, and that to be smaller.
+  const Solid both = Changed(box, {-0.025, 0, 0}, {0.05, 0, 0});
+  const Solid rest = Changed(neighbour, {0, 0, 0}, {-0.008, -0.008, 0});
+  const ObjectList list = Verify(scene, {Proposal(both), Proposal(rest)});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  EXPECT_LT((list.objects[0].solid.X_CO.translation() - neighbour.X_CO.translation()).norm(),
+            0.003);
+  EXPECT_NEAR(list.objects[1].solid.size.maxCoeff(), 0.12, 0.008);
+}
+
+TEST(ModelVerifier, FindsACanUnderABoxThatWasTakenToReachDownThroughIt) {
+  const RenderedScene scene = RenderText(
+      "object { cylinder { radius_m: 0.0282 height_m: 0.04 } x_m: -0.0039 y_m: 0.4906 }"
+      "object { box { size_x_m: 0.0295 size_y_m: 0.021 size_z_m: 0.04 }"
+      "  x_m: -0.0067 y_m: 0.4846 yaw_rad: 0.94 on: 0 }");
+  const Solid deep = Changed(scene.objects[1].solid, {0, 0, -0.02}, {0, 0, 0.04});
+  // What that leaves of the can was taken for a box.
+  Solid rest = scene.objects[0].solid;
+  rest.shape = Shape::kBox;
+  rest.size.head<2>() = Eigen::Vector2d(0.02, 0.041);
+  const ObjectList list =
+      Verify(scene, {Proposal(deep), Proposal(Changed(rest, {0.018, 0, 0}, {0, 0, 0}))});
+  ASSERT_THAT(list.objects, SizeIs(2));
+  EXPECT_EQ(list.objects[0].solid.shape, Shape::kCylinder);
+  EXPECT_NEAR(list.objects[0].solid.radius(), 0.0282, 0.003);
+  EXPECT_NEAR(list.objects[1].solid.height(), 0.04, 0.003);
+  EXPECT_EQ(list.objects[1].supported_by, list.objects[0].id);
+}
+
 TEST(ModelVerifier, TakesNoPartOfABowlForACylinder) {
   std::string bowl = "object { cylinder { radius_m: 0.08 height_m: 0.05 } y_m: 0.65 }";
   for (int i = 0; i < 8; ++i) {
