@@ -78,6 +78,7 @@ TEST(LateProposer, PutsTheBodyOfAStripBehindWhatHidesIt) {
              1);
   const ObjectList found = VerifyFirst(scene);
   ASSERT_THAT(found.objects, SizeIs(2));
+  EXPECT_EQ(found.objects[0].solid.shape, Shape::kBox);
   const Eigen::Vector3d centre_O =
       scene.objects[1].solid.X_CO.inverse() * found.objects[0].solid.X_CO.translation();
   EXPECT_LT(centre_O.cwiseAbs().maxCoeff(), 0.03);

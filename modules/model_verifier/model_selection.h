@@ -131,7 +131,6 @@ class ModelSelection {
   PartCompletion part_completion_;
   // Buffers of the functions that are named.
   std::vector<size_t> blockers_;        // BlockersOf
-  std::vector<size_t> old_;             // ReplaceWithRest
   std::vector<size_t> only_;            // Only
   std::vector<size_t> order_;           // Exchange
   std::vector<size_t> instead_;         // Replace

@@ -32,8 +32,8 @@ bool ModelSelection::SplitByArea(size_t old, const Input& input) {
   return ReplaceByParts(parts_, old, 1, input);
 }
 
-// Gives the place of a selected candidate to one of the other shape, laid over its pixels, or that
-// of others that keep this one out. True when that explains more.
+// Gives the place of a selected candidate to one of the other shape, laid over its pixels; where
+// others keep that one out, their place, too. True when that explains more.
 bool ModelSelection::Reshape(size_t old, const Input& input) {
   constexpr int kMaxPx = 2000;  // [px]: where more is seen, votes tell the shape
   Candidate& candidate = candidates_[old];

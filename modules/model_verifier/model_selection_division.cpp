@@ -79,7 +79,8 @@ void ModelSelection::FindPartsInside(size_t old) {
   });
 }
 
-// Adds solids over what a selected candidate explains and neither a part of it nor another does.
+// Adds solids over what a selected candidate explains and neither another selected one does nor
+// `part`, which is to take a part of its place.
 void ModelSelection::ProposeForRest(size_t old, size_t part, const Input& input) {
   const Observation& observation = input.observation;
   Release(old);

@@ -30,10 +30,16 @@ bool ModelSelection::Exchange(const Input& input) {
 }
 
 // Gives the place of those that keep a candidate out to it, where that is worth trying. True when
-// it explains more, alone or with what it leaves to others.
+// it explains more, alone or with what it leaves of them.
 bool ModelSelection::TryInPlaceOfBlockers(size_t index, const Input& input) {
-  return IsWorthTrying(index) &&
-         (Replace(BlockersOf(index), index, input) || ReplaceWithRest(index, input));
+  if (!IsWorthTrying(index)) return false;
+  Candidate& candidate = candidates_[index];
+  if (!candidate.is_refined && config_.refine()) {
+    RefineCandidate(&candidate, input.observation, input);
+    OnMoved(index);
+    if (candidate.is_out) return false;
+  }
+  return Replace(BlockersOf(index), index, input) || ReplaceWithRest(index, input);
 }
 
 // True for a candidate that explains what nobody else does, or about as much as all those together
@@ -49,20 +55,15 @@ bool ModelSelection::IsWorthTrying(size_t index) {
   return candidate.evidence.Balance() > kMinShare * gain;
 }
 
-// Gives the place of those that keep a candidate out to it and to what they leave: the parts of
-// them above its top, and solids laid over the rest. Only where much speaks for the candidate that
-// nobody explains: what bulges leaves some. True when they explain more.
+// Gives the place of those that keep a candidate out to it and to what it leaves of them: their
+// parts above its top, and solids laid over the rest. Only where much of what speaks for it is
+// explained by nobody: of a carton that bulges, a little is. True when they explain more.
 bool ModelSelection::ReplaceWithRest(size_t index, const Input& input) {
-  constexpr double kMinNew = 0.2;  // of what speaks for it, from pixels nobody else explains
+  constexpr double kMinNew = 0.2;  // of what speaks for it
   const Plane& support = input.observation.support;
   Candidate& candidate = candidates_[index];
-  if (!candidate.is_refined) {
-    RefineCandidate(&candidate, input.observation, input);
-    OnMoved(index);
-  }
-  if (candidate.is_out || candidate.num_blockers == 0 ||
-      Gain(&candidate) <
-          std::max(config_.min_explained_px(), kMinNew * candidate.evidence.Balance())) {
+  if (Gain(&candidate) <
+      std::max(config_.min_explained_px(), kMinNew * candidate.evidence.Balance())) {
     return false;
   }
   const Solid& solid = candidate.hypothesis.solid;
@@ -72,8 +73,8 @@ bool ModelSelection::ReplaceWithRest(size_t index, const Input& input) {
            TopOf(other, support) > top + kMinExtent && BottomOf(other, support) < top - kMinExtent;
   };
   const size_t num_before = num_candidates_;
-  old_ = BlockersOf(index);
-  for (const size_t i : old_) {
+  const std::vector<size_t>& blockers = BlockersOf(index);
+  for (const size_t i : blockers) {
     const Solid& blocker = candidates_[i].hypothesis.solid;
     if (!reaches_through_top(blocker)) {
       ProposeForRest(i, index, input);
@@ -81,7 +82,7 @@ bool ModelSelection::ReplaceWithRest(size_t index, const Input& input) {
       AddUpperPart(i, top, input);
     }
   }
-  if (num_candidates_ > num_before && Replace(old_, index, input)) return true;
+  if (num_candidates_ > num_before && Replace(blockers, index, input)) return true;
   num_candidates_ = num_before;
   return false;
 }

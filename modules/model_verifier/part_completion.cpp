@@ -85,7 +85,9 @@ Hypothesis Standing(Shape shape, const Range& heights, const Eigen::Vector2f& ce
 
 PossibleEnds EndsAround(const Range& seen, const Range& seen_across) {
   if (seen.length() > static_cast<float>(kMinExtent)) return {{seen, seen}, 1};
-  const float depth = std::clamp(0.5f * seen_across.length(), 0.03f, 0.10f);
+  constexpr float kDepthOfWidth = 0.5f;                  // assumed, as a share of what is seen
+  constexpr float kMinDepth = 0.030f, kMaxDepth = 0.1f;  // [m]
+  const float depth = std::clamp(kDepthOfWidth * seen_across.length(), kMinDepth, kMaxDepth);
   return {{Range{seen.low, seen.low + depth}, Range{seen.high - depth, seen.high}}, 2};
 }
 
@@ -110,10 +112,7 @@ void AddBoxesOver(const SurfacePart& part, const Range& heights, const Eigen::Is
       const Range& x = ends[0].ranges[i];
       const Range& y = ends[1].ranges[k];
       const Eigen::Vector2f size(x.length(), y.length());
-      if (size.minCoeff() < static_cast<float>(kMinExtent) ||
-          size.maxCoeff() > static_cast<float>(kMaxExtent)) {
-        continue;
-      }
+      if (size.maxCoeff() > static_cast<float>(kMaxExtent)) continue;
       const Eigen::Vector2f centre =
           0.5f * (x.low + x.high) * axes[0] + 0.5f * (y.low + y.high) * axes[1];
       Hypothesis& box =
