@@ -169,7 +169,11 @@ std::optional<Solid> ModelSelection::Through(const Solid& solid, const Candidate
 bool ModelSelection::Unite(size_t old, const Input& input) {
   constexpr double kMinShare = 0.8;         // of what both explain
   constexpr double kMaxNewViolating = 0.5;  // of what the smaller one explains
-  constexpr double kMaxTopStep = 0.006;     // [m]
+  // [m] between parts of one top, also that of a large carton. Noise alone makes the second, and as
+  // sensors bend what is level, some of the distance between the middles of the parts comes to it.
+  constexpr double kMaxTopStep = 0.006;
+  constexpr double kMaxNearTopStep = 0.0025;
+  constexpr double kMaxTopSlope = 0.02;
   const Plane& support = input.observation.support;
   const Candidate& larger = candidates_[old];
   const Solid& solid = larger.hypothesis.solid;
@@ -178,8 +182,13 @@ bool ModelSelection::Unite(size_t old, const Input& input) {
     const Candidate& smaller = candidates_[part];
     const RayEvidence& evidence = smaller.evidence;
     if (part == old || !smaller.is_selected || smaller.hypothesis.solid.shape != solid.shape ||
-        evidence.num_explained() > larger.evidence.num_explained() ||
-        std::abs(TopOf(smaller.hypothesis.solid, support) - TopOf(solid, support)) > kMaxTopStep) {
+        evidence.num_explained() > larger.evidence.num_explained()) {
+      continue;
+    }
+    const Solid& other = smaller.hypothesis.solid;
+    const double distance = (other.X_CO.translation() - solid.X_CO.translation()).norm();
+    if (std::abs(TopOf(other, support) - TopOf(solid, support)) >
+        std::min(kMaxTopStep, kMaxNearTopStep + kMaxTopSlope * distance)) {
       continue;
     }
     const auto longer = Through(solid, smaller, input);

@@ -226,6 +226,16 @@ TEST(ModelVerifier, UnitesWhatIsSeenOnBothSidesOfAnObstacle) {
   EXPECT_THAT(Verify(apart, {left, right}).objects, SizeIs(2));
 }
 
+TEST(ModelVerifier, LeavesNeighboursOfTwoHeightsApartBehindAnObstacle) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.04 size_y_m: 0.06 size_z_m: 0.05 } x_m: -0.0405 y_m: 0.72 }"
+      "object { box { size_x_m: 0.04 size_y_m: 0.06 size_z_m: 0.0545 } x_m: 0.0005 y_m: 0.72 }"
+      "object { box { size_x_m: 0.025 size_y_m: 0.025 size_z_m: 0.2 } x_m: -0.018 y_m: 0.62 }");
+  std::vector<Hypothesis> hypotheses;
+  for (const TrueObject& object : scene.objects) hypotheses.push_back(Proposal(object.solid));
+  EXPECT_THAT(Verify(scene, hypotheses).objects, SizeIs(3));
+}
+
 TEST(ModelVerifier, DividesABoxThatIsSeenThrough) {
   // Of one height, so that one patch holds the tops of both.
   const RenderedScene scene = RenderText(
