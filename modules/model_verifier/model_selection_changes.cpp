@@ -169,11 +169,11 @@ std::optional<Solid> ModelSelection::Through(const Solid& solid, const Candidate
 bool ModelSelection::Unite(size_t old, const Input& input) {
   constexpr double kMinShare = 0.8;         // of what both explain
   constexpr double kMaxNewViolating = 0.5;  // of what the smaller one explains
-  // [m] between parts of one top, also that of a large carton. Noise alone makes the second, and as
-  // sensors bend what is level, some of the distance between the middles of the parts comes to it.
+  // Steps [m] between parts of one top: what noise makes, what a sensor that bends it adds over the
+  // distance between their middles, and at most what a large carton has.
+  constexpr double kNoiseStep = 0.0025;
+  constexpr double kStepPerDistance = 0.02;
   constexpr double kMaxTopStep = 0.006;
-  constexpr double kMaxNearTopStep = 0.0025;
-  constexpr double kMaxTopSlope = 0.02;
   const Plane& support = input.observation.support;
   const Candidate& larger = candidates_[old];
   const Solid& solid = larger.hypothesis.solid;
@@ -188,7 +188,7 @@ bool ModelSelection::Unite(size_t old, const Input& input) {
     const Solid& other = smaller.hypothesis.solid;
     const double distance = (other.X_CO.translation() - solid.X_CO.translation()).norm();
     if (std::abs(TopOf(other, support) - TopOf(solid, support)) >
-        std::min(kMaxTopStep, kMaxNearTopStep + kMaxTopSlope * distance)) {
+        std::min(kMaxTopStep, kNoiseStep + kStepPerDistance * distance)) {
       continue;
     }
     const auto longer = Through(solid, smaller, input);
