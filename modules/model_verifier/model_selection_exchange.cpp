@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "modules/geometry/plane.h"
-#include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/support_settling.h"
 
@@ -70,7 +69,7 @@ bool ModelSelection::ReplaceWithRest(size_t index, const Input& input) {
   const double top = TopOf(solid, support);
   const auto reaches_through_top = [&](const Solid& other) {
     return IsUpright(solid, support) && IsUpright(other, support) &&
-           TopOf(other, support) > top + kMinExtent && BottomOf(other, support) < top - kMinExtent;
+           ReachesThrough(other, top, support);
   };
   const size_t num_before = num_candidates_;
   const std::vector<size_t>& blockers = BlockersOf(index);

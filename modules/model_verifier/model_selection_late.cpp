@@ -86,10 +86,7 @@ void ModelSelection::ProposeUpperParts(const Input& input) {
         continue;
       }
       const double floor = TopOf(candidate.hypothesis.solid, support);
-      if (floor > top - kMinExtent || floor < top - solid.height() + kMinExtent ||
-          Gain(&candidate) <= 0) {
-        continue;
-      }
+      if (!ReachesThrough(solid, floor, support) || Gain(&candidate) <= 0) continue;
       if (!best || Gain(&candidate) > Gain(&candidates_[*best])) best = i;
     }
     if (!best) continue;

@@ -53,6 +53,11 @@ double BottomOf(const Solid& solid, const Plane& support) {
   return support.Height(solid.X_CO.translation()) - HalfExtent(solid, support);
 }
 
+bool ReachesThrough(const Solid& solid, double height, const Plane& support) {
+  return TopOf(solid, support) >= height + kMinExtent &&
+         BottomOf(solid, support) <= height - kMinExtent;
+}
+
 Solid ExtendedToSupport(const Solid& solid, const Plane& support) {
   return Longer(solid, 2, -1, BottomOf(solid, support));
 }

@@ -43,6 +43,10 @@ bool IsUpright(const Solid& solid, const Plane& support);
 double TopOf(const Solid& solid, const Plane& support);
 double BottomOf(const Solid& solid, const Plane& support);
 
+// True for a solid of which at least what can be grasped is below a height [m] over the support
+// plane, and as much above it.
+bool ReachesThrough(const Solid& solid, double height, const Plane& support);
+
 // A solid lengthened along its z axis down to the support plane.
 Solid ExtendedToSupport(const Solid& solid, const Plane& support);
 
