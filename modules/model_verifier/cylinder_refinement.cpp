@@ -15,15 +15,25 @@ namespace {
 
 constexpr double kRest = 1e-6;  // [m] of a step that ends a fit
 
+// The least cosine of incidence at which the side of a cylinder is fitted. The more oblique, the
+// more does a point tell of the radius, unless its depth is that of a window of pixels, which at
+// the outline reaches around the curve.
+double MinIncidenceCos(const ImageNoise& noise) {
+  constexpr double kOfWindows = 0.45, kOfPixels = 0.22;
+  constexpr double kLow = 0.6, kHigh = 0.9;  // independence of windows, of pixels
+  const double share = std::clamp((noise.independence - kLow) / (kHigh - kLow), 0.0, 1.0);
+  return kOfWindows + share * (kOfPixels - kOfWindows);
+}
+
 // Gauss-Newton step for centre and radius on the points of the side; false when there are too few.
-bool FitSide(const FitPoints& points, Eigen::Vector3d* x) {
+bool FitSide(const FitPoints& points, const ImageNoise& noise, Eigen::Vector3d* x) {
   SideRegion region;
   region.x = static_cast<float>(x->x());
   region.y = static_cast<float>(x->y());
   region.radius = static_cast<float>(x->z());
   region.min_tolerance_m = 0.005f;
   region.tolerance_in_sigmas = 3;
-  region.min_incidence_cos = 0.4f;
+  region.min_incidence_cos = static_cast<float>(MinIncidenceCos(noise));
   region.min_normal_cos = static_cast<float>(kMinFitCos);
   const SideSums s = SumSide(points.arrays(), region);
   if (points.pixel_weight() * s.num < kMinFitPoints) return false;
@@ -52,7 +62,7 @@ Solid RefineCylinder(Solid solid, const Observation& observation, FitPoints* poi
   Eigen::Vector3d x(0, 0, solid.radius());  // centre, radius
   for (int iteration = 0; iteration < 4; ++iteration) {
     Eigen::Vector3d next = x;
-    if (!FitSide(*points, &next)) break;
+    if (!FitSide(*points, observation.noise, &next)) break;
     const bool is_at_rest = (next - x).cwiseAbs().maxCoeff() < kRest;
     x = next;
     if (is_at_rest) break;

@@ -88,7 +88,7 @@ TEST(ShiftOfEnd, IsWhereTheOtherObjectBegins) {
       if (is_other) grid.z[static_cast<size_t>(v) * grid.stride + static_cast<size_t>(u)] *= -1;
     }
   }
-  const auto shift = ShiftOfEnd(longer, 0, 1, {all.image, grid, all.normals, all.support});
+  const auto shift = ShiftOfEnd(longer, 0, 1, all.At(grid));
   ASSERT_TRUE(shift);
   EXPECT_NEAR(*shift, -0.006, 0.0005);
 }

@@ -47,12 +47,16 @@ HWY_INLINE Mask IsOn(const FitArrays& points, int32_t surface_bit, size_t i) {
   return hn::And(is_on, hn::FirstN(Floats(), HWY_MIN(points.num - i, hn::Lanes(i32))));
 }
 
-// Half the noise of a sensor does not average out at grazing rays, which bounds the weight of what
-// is seen under them.
+// Inverse variance of the distance of the points from i on to a surface that rays meet at `cosine`.
 HWY_INLINE Vector Weight(const FitArrays& points, const Vector& cosine, size_t i) {
-  const auto sigma =
-      hn::Mul(hn::LoadU(Floats(), points.sigma + i), hn::Max(hn::Abs(cosine), Constant(0.5f)));
+  const auto sigma = hn::Mul(hn::LoadU(Floats(), points.sigma + i), cosine);
   return hn::Div(Constant(1.0f), hn::Mul(sigma, sigma));
+}
+
+// Half the noise of a sensor does not average out at grazing rays, which bounds the weight of a
+// plane that is seen under them.
+HWY_INLINE Vector WeightOnPlane(const FitArrays& points, const Vector& cosine, size_t i) {
+  return Weight(points, hn::Max(hn::Abs(cosine), Constant(0.5f)), i);
 }
 
 // Of the points from i on that are on a face, those for which another one is nearer.
@@ -85,7 +89,8 @@ FaceSums SumFace(const FitArrays& points, const FaceRegion& region) {
                               IsNearerTo(b, points, region, distance, i)),
                        is_on);
     sums.num += Count(is_on);
-    const auto weight = hn::IfThenElseZero(is_on, Weight(points, Load(points.ray, axis, i), i));
+    const auto weight =
+        hn::IfThenElseZero(is_on, WeightOnPlane(points, Load(points.ray, axis, i), i));
     const auto x = hn::IfThenElseZero(is_on, from_face);
     w.Add(i, weight);
     wx.Add(i, hn::Mul(weight, x));
@@ -108,31 +113,41 @@ FaceSums SumFace(const FitArrays& points, const FaceRegion& region) {
 
 SideSums SumSide(const FitArrays& points, const SideRegion& region) {
   const Floats f;
+  const auto radius = Constant(region.radius);
   SideSums sums;
   Sum w, wnx, wny, wnxnx, wnxny, wnyny, wr, wnxr, wnyr;
   for (size_t i = 0; i < points.num; i += hn::Lanes(f)) {
     auto is_on = IsOn(points, kCylinderSideBit, i);
+    // Seen along the axis: the ray's direction, and the point along and across it. Normal and
+    // weight are those of the place where the ray meets the side, which noise does not move: with
+    // those of the point, what is measured too far back would seem more oblique, count more, and
+    // make the radius smaller.
+    const Vector3 ray = Load(points.ray, i);
+    const auto slope = hn::Sqrt(hn::Add(hn::Mul(ray.x, ray.x), hn::Mul(ray.y, ray.y)));
+    const auto ux = hn::Div(ray.x, slope), uy = hn::Div(ray.y, slope);
     const auto x = hn::Sub(Load(points.p, 0, i), Constant(region.x));
     const auto y = hn::Sub(Load(points.p, 1, i), Constant(region.y));
-    const auto distance = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-    const auto residual = hn::Sub(distance, Constant(region.radius));
+    const auto along_ray = hn::Add(hn::Mul(x, ux), hn::Mul(y, uy));
+    const auto across = hn::Div(hn::Sub(hn::Mul(y, ux), hn::Mul(x, uy)), radius);
+    const auto depth =
+        hn::Sqrt(hn::Max(hn::Sub(Constant(1.0f), hn::Mul(across, across)), hn::Zero(f)));
+    const auto cosine = hn::Mul(depth, slope);
+    is_on = hn::And(is_on, hn::Ge(cosine, Constant(region.min_incidence_cos)));
+    if (hn::AllFalse(f, is_on)) continue;
+    const auto residual = hn::Neg(hn::Mul(depth, hn::Add(along_ray, hn::Mul(radius, depth))));
     const auto tolerance =
         hn::Max(Constant(region.min_tolerance_m),
                 hn::Mul(Constant(region.tolerance_in_sigmas), hn::LoadU(f, points.sigma + i)));
-    is_on = hn::And(
-        is_on, hn::And(hn::Le(hn::Abs(residual), tolerance), hn::Ge(distance, Constant(1e-6f))));
+    is_on = hn::And(is_on, hn::Le(hn::Abs(residual), tolerance));
     if (hn::AllFalse(f, is_on)) continue;
-    const auto nx = hn::IfThenElseZero(is_on, hn::Div(x, distance));
-    const auto ny = hn::IfThenElseZero(is_on, hn::Div(y, distance));
-    const auto along = [&](const Vector3& v) {
-      return hn::Add(hn::Mul(nx, v.x), hn::Mul(ny, v.y));
-    };
-    const auto cosine = along(Load(points.ray, i));
+    const auto nx =
+        hn::IfThenElseZero(is_on, hn::Sub(hn::Neg(hn::Mul(depth, ux)), hn::Mul(across, uy)));
+    const auto ny = hn::IfThenElseZero(is_on, hn::Sub(hn::Mul(across, ux), hn::Mul(depth, uy)));
     const Vector3 n = Load(points.n, i);
-    const auto is_turned_away =
-        hn::And(IsKnown(n), hn::Lt(along(n), Constant(region.min_normal_cos)));
-    is_on = hn::AndNot(is_turned_away,
-                       hn::And(is_on, hn::Le(cosine, Constant(-region.min_incidence_cos))));
+    const auto is_turned_away = hn::And(
+        IsKnown(n),
+        hn::Lt(hn::Add(hn::Mul(nx, n.x), hn::Mul(ny, n.y)), Constant(region.min_normal_cos)));
+    is_on = hn::AndNot(is_turned_away, is_on);
     sums.num += Count(is_on);
     const auto weight = hn::IfThenElseZero(is_on, Weight(points, cosine, i));
     const auto r = hn::IfThenElseZero(is_on, residual);
@@ -171,7 +186,7 @@ DiscSums SumDisc(const FitArrays& points, const DiscRegion& region) {
                 hn::Le(hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y))), Constant(region.radius)));
     if (hn::AllFalse(f, is_on)) continue;
     sums.num += Count(is_on);
-    const auto weight = hn::IfThenElseZero(is_on, Weight(points, Load(points.ray, 2, i), i));
+    const auto weight = hn::IfThenElseZero(is_on, WeightOnPlane(points, Load(points.ray, 2, i), i));
     w.Add(i, weight);
     const auto z =
         hn::IfThenElseZero(is_on, hn::Sub(Load(points.p, 2, i), Constant(region.height)));

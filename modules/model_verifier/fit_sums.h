@@ -33,7 +33,9 @@ struct SideRegion {
   float min_normal_cos = 0;                            // of a measured normal
 };
 
-// Of the distances r to the side, whose derivatives by (x, y, radius) are (-nx, -ny, -1).
+// Of the distances r along the rays from the side to the points, by the cosine of incidence, whose
+// derivatives by (x, y, radius) are (-nx, -ny, -1): (nx, ny) is the normal where a ray meets the
+// side.
 struct SideSums {
   int num = 0;
   double w = 0, nx = 0, ny = 0, nxnx = 0, nxny = 0, nyny = 0, r = 0, nxr = 0, nyr = 0;  // times w

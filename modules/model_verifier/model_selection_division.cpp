@@ -93,8 +93,7 @@ void ModelSelection::ProposeForRest(size_t old, size_t part, const Input& input)
   for (const int32_t pixel : candidates_[part].evidence.explained) {
     unclaimed_.z[unclaimed_.Index(pixel)] = 0;
   }
-  const Observation unclaimed{observation.image, unclaimed_, observation.normals,
-                              observation.support};
+  const Observation unclaimed = observation.At(unclaimed_);
   AddOver(is_own_, candidates_[old].evidence.window, std::nullopt, unclaimed, input);
   Release(part);
   Select(old);

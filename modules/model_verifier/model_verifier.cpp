@@ -9,7 +9,6 @@
 #include "modules/model_verifier/confidence.h"
 #include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/hidden_ends.h"
-#include "modules/model_verifier/noise_level.h"
 #include "modules/model_verifier/refinement.h"
 #include "modules/model_verifier/support_settling.h"
 #include "modules/model_verifier/systematic_misfit.h"
@@ -109,9 +108,8 @@ void ModelVerifier::Measure(ObjectList* list) {
   }
   unexplained_ = observation.grid;
   RemoveExplained(evidence_, num, &unexplained_);
-  const Observation unexplained{observation.image, unexplained_, observation.normals,
-                                observation.support};
-  noise_level_ = NoiseLevel(observation, &deviations_);
+  const Observation unexplained = observation.At(unexplained_);
+  const double noise_level = observation.noise.level;
   ends_.resize(num);
   for (size_t i = 0; i < num; ++i) {
     ObjectModel& object = list->objects[i];
@@ -131,8 +129,8 @@ void ModelVerifier::Measure(ObjectList* list) {
       object.confidence *= static_cast<float>(ShareOfSide(object.solid, points_O));
       object.covariance = CovarianceOfCylinder(
           object.solid,
-          VariancesOf(object.solid, ends_[i], object.num_explained, list->camera, noise_level_),
-          points_O, evidence_[i].pixel_weight, noise_level_);
+          VariancesOf(object.solid, ends_[i], object.num_explained, list->camera, noise_level),
+          points_O, evidence_[i].pixel_weight, noise_level);
     }
   }
 }
@@ -172,16 +170,18 @@ void ModelVerifier::LabelPixels(ObjectList* list) {
 }
 
 void ModelVerifier::CompleteBoxes(ObjectList* list) {
+  const Observation observation = observed_.every_second_pixel();
   for (size_t i = 0; i < list->objects.size(); ++i) {
     ObjectModel& object = list->objects[i];
     if (object.solid.shape != Shape::kBox) continue;
     const Solid seen = object.solid;
     EndVariances variances =
-        VariancesOf(seen, ends_[i], object.num_explained, list->camera, noise_level_);
+        VariancesOf(seen, ends_[i], object.num_explained, list->camera, observation.noise.level);
     FindOthers(i, *list);
-    CompleteHiddenEnds(ends_[i], others_, observed_.every_second_pixel(), &object.solid, &variances,
+    CompleteHiddenEnds(ends_[i], others_, observation, &object.solid, &variances,
                        &buffers_.evidence);
-    object.covariance = CovarianceOfBox(seen, ends_[i], variances, list->camera, noise_level_);
+    object.covariance =
+        CovarianceOfBox(seen, ends_[i], variances, list->camera, observation.noise.level);
   }
 }
 

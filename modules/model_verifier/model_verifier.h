@@ -56,9 +56,7 @@ class ModelVerifier {
   PixelGrid unexplained_;
   std::vector<int32_t> new_ids_;  // of objects in place of their old ones; 0: none
   std::vector<SolidEnds> ends_;   // of each object
-  double noise_level_ = 1;
-  std::vector<float> deviations_;  // NoiseLevel
-  std::vector<Solid> others_;      // CompleteHiddenEnds
+  std::vector<Solid> others_;     // CompleteHiddenEnds
 };
 
 }  // namespace declutter

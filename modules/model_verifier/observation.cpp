@@ -8,6 +8,7 @@ void ObservedImage::Set(const DepthImage& image, const Plane& support) {
   all_.Set(image, 1);
   half_.Set(image, GradientNormals::kStep);
   normals_.Compute(image.camera, all_, half_);
+  noise_ = noise_meter_.Measure(all_, support);
 }
 
 }  // namespace declutter

@@ -25,7 +25,7 @@ void SeparateFits::Run(const ObservedImage& observed, const std::vector<Candidat
   if (candidates.empty()) return;
   const Observation half = observed.every_second_pixel();
   const Observation all = observed.every_pixel();
-  const Observation apart{all.image, grid_, all.normals, all.support};
+  const Observation apart = all.At(grid_);
   evidence_.clear();
   for (const Candidate* candidate : candidates) evidence_.push_back(&candidate->evidence);
   is_moving_.assign(candidates.size(), 1);

@@ -10,7 +10,7 @@
 namespace declutter {
 
 // Of the ends of a solid that explains num_explained pixels, by what they rest on. The standard
-// deviations are those of rendered scenes; noise_level is that of the sensor, as NoiseLevel tells.
+// deviations are those of rendered scenes; noise_level is that of the sensor, as ImageNoise tells.
 EndVariances VariancesOf(const Solid& solid, const SolidEnds& ends, int num_explained,
                          const PinholeCamera& camera, double noise_level);
 

@@ -1,4 +1,4 @@
-#include "modules/model_verifier/noise_level.h"
+#include "modules/model_verifier/image_noise.h"
 
 #include <gtest/gtest.h>
 
@@ -36,20 +36,21 @@ DepthImage NoisyPlane(double sigmas, int patch_px) {
   return image;
 }
 
-double LevelOf(const DepthImage& image) {
-  ObservedImage observed;
-  observed.Set(image, kSupport);
-  std::vector<float> buffer;
-  return NoiseLevel(observed.every_pixel(), &buffer);
+ImageNoise NoiseOf(const DepthImage& image) {
+  PixelGrid every_pixel;
+  every_pixel.Set(image, 1);
+  return ImageNoiseMeter().Measure(every_pixel, kSupport);
 }
 
-TEST(NoiseLevel, GrowsWithWhatNeighboursDeviateTogether) {
+double LevelOf(const DepthImage& image) { return NoiseOf(image).level; }
+
+TEST(ImageNoise, HasALevelThatGrowsWithWhatNeighboursDeviateTogether) {
   EXPECT_NEAR(LevelOf(NoisyPlane(0.5, 6)), 0.5, 0.08);
   EXPECT_NEAR(LevelOf(NoisyPlane(1, 6)), 1, 0.15);
   EXPECT_NEAR(LevelOf(NoisyPlane(3, 6)), 3, 0.45);
 }
 
-TEST(NoiseLevel, LeavesOutWhatLiesOnThePlane) {
+TEST(ImageNoise, LeavesOutWhatLiesOnThePlane) {
   DepthImage image = NoisyPlane(1, 6);
   // 15 mm high, over a quarter of the image.
   for (size_t i = 0; i < image.counts.size() / 4; ++i) {
@@ -58,14 +59,21 @@ TEST(NoiseLevel, LeavesOutWhatLiesOnThePlane) {
   EXPECT_LT(LevelOf(image), 1.6);
 }
 
-TEST(NoiseLevel, IsLowWhereEveryPixelDeviatesByItself) {
+TEST(ImageNoise, HasALowLevelWhereEveryPixelDeviatesByItself) {
   EXPECT_NEAR(LevelOf(NoisyPlane(1, 1)), 1.0 / 6, 0.03);
 }
 
-TEST(NoiseLevel, IsOneWhereNoPlaneIsSeen) {
-  DepthImage image = NoisyPlane(0.5, 6);
+TEST(ImageNoise, IsIndependentWherePixelsDeviateByThemselves) {
+  EXPECT_GT(NoiseOf(NoisyPlane(1, 1)).independence, 0.95);
+  // One step of five has ends in two patches.
+  EXPECT_LT(NoiseOf(NoisyPlane(1, 4)).independence, 0.5);
+}
+
+TEST(ImageNoise, IsThatOfAKinectWhereNoPlaneIsSeen) {
+  DepthImage image = NoisyPlane(0.5, 1);
   for (uint16_t& count : image.counts) count = static_cast<uint16_t>(count - 500);
-  EXPECT_EQ(LevelOf(image), 1);
+  EXPECT_EQ(NoiseOf(image).level, 1);
+  EXPECT_EQ(NoiseOf(image).independence, 0);
 }
 
 }  // namespace
