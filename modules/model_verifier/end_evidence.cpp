@@ -13,6 +13,8 @@ namespace {
 constexpr double kBeyond = 0.010;  // [m] from an end to where its surroundings are probed
 constexpr int kProbes = 9;         // along each edge
 constexpr double kInset = 0.85;    // of the half size, up to which an edge is probed
+// Along the edges of a face: of its extent, and at most [m].
+constexpr double kFaceMargin = 0.25, kMaxFaceMargin = 0.005;
 
 struct Votes {
   int seen = 0;    // free space behind the edge
@@ -60,14 +62,18 @@ bool IsEdgeSeen(const Solid& solid, const DepthImage& image, int axis, int sign)
   return votes.seen > votes.hidden;
 }
 
-// [px] explained on each face.
+// [px] explained on each face, off its edges: a point at an edge may be one of the other face.
 std::array<std::array<int, 2>, 3> PointsOnFaces(const Solid& solid, const RayEvidence& evidence,
                                                 const std::vector<Eigen::Vector3d>& points_O) {
   std::array<std::array<int, 2>, 3> num = {};
-  const Eigen::Vector3d half = 0.5 * solid.size;
+  const Eigen::Array3d half = 0.5 * solid.size.array();
+  const Eigen::Array3d inner = half - (kFaceMargin * solid.size.array()).min(kMaxFaceMargin);
   for (const Eigen::Vector3d& p_O : points_O) {
     int axis = 0;
-    (p_O.cwiseAbs() - half).maxCoeff(&axis);
+    (p_O.array().abs() - half).maxCoeff(&axis);
+    Eigen::Array3d along = p_O.array().abs();
+    along[axis] = 0;
+    if ((along > inner).any()) continue;
     num[static_cast<size_t>(axis)][p_O[axis] > 0] += evidence.pixel_weight;
   }
   return num;

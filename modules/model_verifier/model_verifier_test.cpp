@@ -382,6 +382,15 @@ TEST(ExtentEvidence, IsBoundedByFreeSpaceWhereTheOccluderEnds) {
   EXPECT_EQ(EvidenceOf(scene, scene.objects[0].solid)[0], Evidence::kFreeSpace);
 }
 
+TEST(ExtentEvidence, IsNotThatPointsOfAnotherFaceLieAtTheEdge) {
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.2 size_y_m: 0.06 size_z_m: 0.2 } x_m: 0.1 y_m: 0.75 }"
+      "object { box { size_x_m: 0.14 size_y_m: 0.06 size_z_m: 0.3 } x_m: 0.0 y_m: 0.66 }");
+  // Up to where it is seen from behind the other, and its left face is turned toward the camera.
+  const Solid seen = Changed(scene.objects[0].solid, {0.048, 0, 0}, {-0.096, 0, 0});
+  EXPECT_EQ(EvidenceOf(scene, seen)[0], Evidence::kAssumed);
+}
+
 TEST(ModelVerifier, KnowsAHiddenExtentLessWellThanASeenOne) {
   const RenderedScene scene = RenderText(
       "object { box { size_x_m: 0.2 size_y_m: 0.06 size_z_m: 0.12 } y_m: 0.75 }"
