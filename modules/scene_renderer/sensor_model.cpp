@@ -95,6 +95,12 @@ void SenseRealistically(const IdealImage& ideal, const SceneNoise& noise, uint64
   }
 }
 
+// [m] before depths are rounded.
+double WhiteSigma(const SceneNoise& noise, double z) {
+  const double beyond_m = z - kWhiteNoiseDepth_m;
+  return noise.white_sigma_m() + noise.white_sigma_per_m() * beyond_m * beyond_m;
+}
+
 void SenseWithWhiteNoise(const IdealImage& ideal, const SceneNoise& noise, uint64_t seed,
                          uint64_t frame, DepthImage* image) {
   const double K = noise.disparity_constant();
@@ -102,9 +108,7 @@ void SenseWithWhiteNoise(const IdealImage& ideal, const SceneNoise& noise, uint6
   std::normal_distribution<double> normal;
   for (size_t i = 0; i < ideal.z.size(); ++i) {
     const double z = static_cast<double>(ideal.z[i]);
-    const double beyond_m = z - kWhiteNoiseDepth_m;
-    const double sigma_m = noise.white_sigma_m() + noise.white_sigma_per_m() * beyond_m * beyond_m;
-    const double noisy = z + sigma_m * normal(random);
+    const double noisy = z + WhiteSigma(noise, z) * normal(random);
     if (ideal.solid[i] < 0 || noisy <= 0) continue;
     const double D = std::round(K / noisy);
     if (D >= 1) image->counts[i] = ToCount(K / D, image->depth_scale_m);
@@ -129,6 +133,18 @@ DepthImage Sense(const IdealImage& ideal, const SceneNoise& noise, double depth_
     }
   }
   return image;
+}
+
+double DepthSigma(const SceneNoise& noise, double z) {
+  const double count_m = z * z / noise.disparity_constant();
+  const double rounding_m = count_m / std::sqrt(12.0);
+  const double sigma_m =
+      noise.model() == "white" ? WhiteSigma(noise, z) : noise.sigma_counts() * count_m;
+  return std::hypot(sigma_m, rounding_m);
+}
+
+int PixelsPerSample(const SceneNoise& noise) {
+  return noise.model() == "white" ? 1 : noise.noise_width_px() * noise.noise_height_px();
 }
 
 }  // namespace declutter

@@ -19,4 +19,9 @@ namespace declutter {
 DepthImage Sense(const IdealImage& ideal, const SceneNoise& noise, double depth_scale_m,
                  uint64_t seed, uint64_t frame);
 
+// [m] standard deviation of a depth z, and the number of pixels beside each other whose errors are
+// one. The smooth field of a sensor does not count. Not for the model "none".
+double DepthSigma(const SceneNoise& noise, double z);
+int PixelsPerSample(const SceneNoise& noise);
+
 }  // namespace declutter

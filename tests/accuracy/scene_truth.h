@@ -33,6 +33,7 @@ struct TrueObject {
   std::optional<double> distance_m;        // depth of its centre or of a point on it
   std::optional<int> num_px;               // of it in the image
   std::optional<double> visible_fraction;  // visible pixels over those of the object alone
+  std::optional<double> radius_bound_m;    // the least standard deviation an estimate can have
 };
 
 struct SceneTruth {

@@ -6,7 +6,9 @@
 #include <stdexcept>
 
 #include "modules/imaging/png_file.h"
+#include "modules/scene_renderer/scene_text.h"
 #include "tests/accuracy/exported_objects.h"
+#include "tests/accuracy/radius_bound.h"
 
 namespace declutter::accuracy {
 namespace {
@@ -48,6 +50,31 @@ nlohmann::json ReadJson(const fs::path& path) {
   return nlohmann::json::parse(file);
 }
 
+// Adds what limits the accuracy of estimates to the truth of a rendered scene.
+void AddBounds(const fs::path& scene, const nlohmann::json& json, SceneTruth* truth) {
+  const SceneNoise noise = ReadScene((scene / "scene.textproto").string()).noise();
+  const auto depth = imaging::ReadGray16Png((scene / "depth.png").string());
+  const PinholeCamera camera = {depth.width,
+                                depth.height,
+                                json.at("fx").get<double>(),
+                                json.at("fy").get<double>(),
+                                json.at("cx").get<double>(),
+                                json.at("cy").get<double>()};
+  if (truth->labels.size() != depth.pixels.size()) return;
+  std::vector<int> pixels;
+  for (TrueObject& object : truth->objects) {
+    if (object.shape != Shape::kCylinder || !object.solid) continue;
+    pixels.clear();
+    for (int i = 0; i < camera.num_pixels(); ++i) {
+      const int label = truth->labels[static_cast<size_t>(i)];
+      const bool is_own =
+          std::find(object.labels.begin(), object.labels.end(), label) != object.labels.end();
+      if (is_own && depth.pixels[static_cast<size_t>(i)] > 0) pixels.push_back(i);
+    }
+    object.radius_bound_m = RadiusBound(*object.solid, camera, pixels, noise);
+  }
+}
+
 SceneTruth ReadTruth(const fs::path& scene_dir, const fs::path& scene, const nlohmann::json& json) {
   SceneTruth truth = ParseSceneTruth(json);
   truth.frame = FrameName(scene_dir, scene);
@@ -55,6 +82,7 @@ SceneTruth ReadTruth(const fs::path& scene_dir, const fs::path& scene, const nlo
   if (fs::exists(scene / "labels.png")) {
     truth.labels = imaging::ReadGray8Png((scene / "labels.png").string()).pixels;
   }
+  if (fs::exists(scene / "scene.textproto")) AddBounds(scene, json, &truth);
   return truth;
 }
 
