@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "modules/geometry/depth_image.h"
 #include "modules/geometry/plane.h"
 #include "modules/model_verifier/gradient_normals.h"
@@ -15,9 +18,17 @@ struct Observation {
   const GradientNormals& normals;
   const Plane& support;
   const ImageNoise& noise;
+  // Of each pixel of the grid the solid that it belongs to, 0: none, and the one that looks: what
+  // belongs to others it does not explain. Null: nobody knows.
+  const std::vector<uint8_t>* owners = nullptr;
+  uint8_t owner = 0;
 
   // The same at the pixels of another grid.
   Observation At(const PixelGrid& other) const { return {image, other, normals, support, noise}; }
+  // The same for one of the owners.
+  Observation For(uint8_t looking, const std::vector<uint8_t>& owning) const {
+    return {image, grid, normals, support, noise, &owning, looking};
+  }
 
   // The first row or column of the grid that is not before `begin` [px of the image].
   int First(int begin) const { return (begin + grid.step - 1) / grid.step; }

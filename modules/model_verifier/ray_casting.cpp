@@ -27,6 +27,23 @@ RayLimits LimitsWith(double min_height) {
   return limits;
 }
 
+// Drops what is explained but belongs to others.
+void DropOfOthers(const Observation& observation, RayCounts* counts) {
+  if (observation.owners == nullptr) return;
+  int num_kept = 0;
+  for (int i = 0; i < counts->num_explained; ++i) {
+    const int32_t pixel = counts->explained[i];
+    const uint8_t owner = (*observation.owners)[static_cast<size_t>(pixel)];
+    if (owner != 0 && owner != observation.owner) {
+      counts->fit -= counts->fits[i];
+      continue;
+    }
+    counts->explained[num_kept] = pixel;
+    counts->fits[num_kept++] = counts->fits[i];
+  }
+  counts->num_explained = num_kept;
+}
+
 }  // namespace
 
 SolidCaster::SolidCaster(const Solid& solid)
@@ -66,6 +83,7 @@ void CastRays(const Solid& solid, const Observation& observation, RayEvidence* r
   counts.hollow = evidence.hollow.data();
   counts.overhanging = evidence.overhanging.data();
   CastWindow(AsRaySolid(solid, observation.support), window, kLimits, &counts);
+  DropOfOthers(observation, &counts);
   evidence.explained.resize(static_cast<size_t>(counts.num_explained));
   evidence.fits.resize(static_cast<size_t>(counts.num_explained));
   evidence.hollow.resize(static_cast<size_t>(counts.num_hollow));

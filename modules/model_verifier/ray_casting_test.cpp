@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 namespace declutter {
 namespace {
 
@@ -128,6 +131,24 @@ TEST(CastRays, CountsAboutTheSameAtEverySecondPixel) {
   EXPECT_EQ(some.pixel_weight, 4);
   EXPECT_NEAR(some.num_explained(), all.num_explained(), 0.2 * all.num_explained());
   EXPECT_NEAR(some.Balance(), all.Balance(), 0.2 * all.Balance());
+}
+
+TEST(CastRays, LeavesPixelsToTheirOwners) {
+  const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
+  const DepthImage image = Wall(950);
+  const Plane support = FarPlane();
+  ObservedImage observed;
+  observed.Set(image, support);
+  const Observation observation = observed.every_pixel();
+  const RayEvidence all = CastRays(solid, observation);
+  std::vector<uint8_t> owners(image.counts.size(), 0);
+  for (size_t i = 0; i < 20; ++i) owners[static_cast<size_t>(all.explained[i])] = 2;
+  const RayEvidence own = CastRays(solid, observation.For(2, owners));
+  EXPECT_EQ(own.Fit(), all.Fit());
+  const RayEvidence rest = CastRays(solid, observation.For(1, owners));
+  EXPECT_TRUE(std::equal(rest.explained.begin(), rest.explained.end(), all.explained.begin() + 20,
+                         all.explained.end()));
+  EXPECT_EQ(rest.fit_sum, std::accumulate(all.fits.begin() + 20, all.fits.end(), int64_t{0}));
 }
 
 }  // namespace

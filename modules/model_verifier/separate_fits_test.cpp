@@ -58,5 +58,35 @@ TEST(SeparateFits, KeepBoxesApartOfWhichOneContinuesTheOther) {
   EXPECT_NE(candidates[0].hypothesis.solid.size, truth.size);
 }
 
+// A can of which the top is seen, between two boxes that are somewhat lower.
+constexpr char kCanBetweenBoxes[] =
+    "object { cylinder { radius_m: 0.025 height_m: 0.08 } y_m: 0.7 }"
+    "object { box { size_x_m: 0.06 size_y_m: 0.05 size_z_m: 0.077 } x_m: -0.0555 y_m: 0.7 }"
+    "object { box { size_x_m: 0.06 size_y_m: 0.05 size_z_m: 0.077 } x_m: 0.0555 y_m: 0.7 }"
+    "object { box { size_x_m: 0.1 size_y_m: 0.03 size_z_m: 0.1 } y_m: 0.63 }"
+    "noise { model: \"white\" }";
+
+TEST(SeparateFits, LeaveToOthersWhatACylinderThatIsTooLargeReaches) {
+  const RenderedScene scene = Render(ParseScene(kCanBetweenBoxes, "scene"), 1);
+  ObservedImage observed;
+  observed.Set(scene.depth, scene.table);
+  std::vector<Candidate> candidates(4);
+  std::vector<Candidate*> selected;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i].hypothesis.solid = scene.objects[i].solid;
+    selected.push_back(&candidates[i]);
+  }
+  Solid& can = candidates[0].hypothesis.solid;
+  can.size.head<2>().array() += 0.010;
+  can.X_CO.translation() += can.X_CO.linear() * Eigen::Vector3d(0, 0.005, 0);
+  for (Candidate& candidate : candidates) {
+    CastRays(candidate.hypothesis.solid, observed.every_second_pixel(), &candidate.evidence);
+  }
+  FitBuffers buffers;
+  SeparateFits fits;
+  fits.Run(observed, selected, &buffers);
+  EXPECT_NEAR(can.radius(), 0.025, 0.001);
+}
+
 }  // namespace
 }  // namespace declutter
