@@ -121,17 +121,15 @@ void CircleSupports(const CellView& cells, const CircleShape* circles, size_t nu
 size_t CopyMarked(const float* marks, size_t num, size_t num_fields, const float* from,
                   size_t from_stride, float* to, size_t to_stride) {
   const Floats f;
-  const hn::RebindToSigned<Floats> i32;
   size_t num_kept = 0;
   for (size_t i = 0; i < num; i += hn::Lanes(f)) {
     const auto is_kept = hn::And(LanesBelow(num, i), hn::Gt(hn::LoadU(f, marks + i), hn::Zero(f)));
     const size_t num_here = hn::CountTrue(f, is_kept);
     if (num_here == 0) continue;
-    const auto kept_lanes =
-        hn::IndicesFromVec(f, hn::Compress(hn::Iota(i32, 0), hn::RebindMask(i32, is_kept)));
+    const Packing<Floats> pack(f, is_kept);
     for (size_t field = 0; field < num_fields; ++field) {
       const auto values = hn::LoadU(f, from + field * from_stride + i);
-      hn::StoreU(hn::TableLookupLanes(values, kept_lanes), f, to + field * to_stride + num_kept);
+      hn::StoreU(pack(values), f, to + field * to_stride + num_kept);
     }
     num_kept += num_here;
   }

@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include "modules/geometry/packing-inl.h"
 #include "modules/hough_segmenter/point_kernels.h"
 
 HWY_BEFORE_NAMESPACE();

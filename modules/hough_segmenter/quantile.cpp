@@ -51,8 +51,7 @@ size_t CopyBin(const float* values, size_t num, float low, float bins_per_unit, 
         hn::And(LanesBelow(num, i), hn::And(hn::Ge(steps, begin), hn::Lt(steps, end)));
     const size_t num_here = hn::CountTrue(f, is_in_bin);
     if (num_here == 0) continue;
-    // In a register first: to memory it is slow on some processors.
-    hn::StoreU(hn::Compress(value, is_in_bin), f, values_in_bin + num_copied);
+    hn::StoreU(Packing<Floats>(f, is_in_bin)(value), f, values_in_bin + num_copied);
     num_copied += num_here;
   }
   return num_copied;

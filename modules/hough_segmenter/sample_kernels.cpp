@@ -59,8 +59,8 @@ template <typename Shape>
 HWY_INLINE size_t Append(const Mask& is_model, const Vector& p0, const Vector& p1, const Vector& p2,
                          size_t num, Shape* models) {
   static_assert(sizeof(Shape) == 3 * sizeof(float));
-  hn::StoreInterleaved3(hn::Compress(p0, is_model), hn::Compress(p1, is_model),
-                        hn::Compress(p2, is_model), Floats(),
+  const Packing<Floats> pack(Floats(), is_model);
+  hn::StoreInterleaved3(pack(p0), pack(p1), pack(p2), Floats(),
                         reinterpret_cast<float*>(models + num));
   return num + hn::CountTrue(Floats(), is_model);
 }

@@ -60,8 +60,9 @@ HWY_INLINE void AppendPoints(const NearPoints& points, const hn::Vec<Ints>& bits
   const Floats f;
   const Ints i32;
   const auto is_on = hn::Ne(bits, hn::Zero(i32));
+  const Packing<Floats> pack(f, hn::RebindMask(f, is_on));
   const auto append = [&](const Vector& values, float* array) {
-    Append(f, values, hn::RebindMask(f, is_on), array + arrays->num);
+    hn::StoreU(pack(values), f, array + arrays->num);
   };
   const Vector3* const vectors[] = {&points.p, &points.n, &points.ray};
   float* const* const to[] = {arrays->p, arrays->n, arrays->ray};
@@ -71,7 +72,7 @@ HWY_INLINE void AppendPoints(const NearPoints& points, const hn::Vec<Ints>& bits
     append(vectors[k]->z, to[k][2]);
   }
   append(points.sigma, arrays->sigma);
-  Append(i32, bits, is_on, arrays->surfaces + arrays->num);
+  hn::StoreU(pack(bits), i32, arrays->surfaces + arrays->num);
   arrays->num += hn::CountTrue(i32, is_on);
 }
 

@@ -162,8 +162,9 @@ HWY_INLINE void AppendOverhanging(const RaySolid& solid, const RayWindow& window
   const auto is_top = hn::Gt(Dot(solid.R_OC + 6, n_C), Constant(limits.min_normal_cos));
   is_overhanging = hn::And(is_overhanging, hn::Or(is_top, hn::Not(IsKnown(n_C))));
   const Ints i32;
-  Append(i32, hn::Iota(i32, v * window.columns + u), hn::RebindMask(i32, is_overhanging),
-         counts->overhanging + counts->num_overhanging);
+  const auto index = hn::Iota(i32, v * window.columns + u);
+  hn::StoreU(Packing<Floats>(f, is_overhanging)(index), i32,
+             counts->overhanging + counts->num_overhanging);
   counts->num_overhanging += Count(is_overhanging);
 }
 
@@ -191,10 +192,10 @@ HWY_INLINE void Explain(const RaySolid& solid, const RayWindow& window, const Ra
       is_explained, hn::Mul(hn::Min(normal_fit, one), hn::Sub(one, hn::Mul(relative, relative))));
   const auto fixed = hn::NearestInt(hn::Mul(fit, Constant(static_cast<float>(kFitUnit))));
   counts->fit += hn::GetLane(hn::SumOfLanes(i32, fixed));
-  const auto is_stored = hn::RebindMask(i32, is_explained);
+  const Packing<Floats> pack(f, is_explained);
   const auto index = hn::Iota(i32, v * window.columns + u);
-  Append(i32, index, is_stored, counts->explained + counts->num_explained);
-  Append(i32, fixed, is_stored, counts->fits + counts->num_explained);
+  hn::StoreU(pack(index), i32, counts->explained + counts->num_explained);
+  hn::StoreU(pack(fixed), i32, counts->fits + counts->num_explained);
   counts->num_explained += Count(is_explained);
 }
 
@@ -223,8 +224,8 @@ HWY_INLINE void SortHits(const RaySolid& solid, const RayWindow& window, const R
   if (kIsCylinder) {
     const auto is_hollow =
         hn::And(hn::And(is_other, passage.through_top), hn::Lt(distance, hn::Zero(f)));
-    Append(i32, hn::Iota(i32, v * window.columns + u), hn::RebindMask(i32, is_hollow),
-           counts->hollow + counts->num_hollow);
+    const auto index = hn::Iota(i32, v * window.columns + u);
+    hn::StoreU(Packing<Floats>(f, is_hollow)(index), i32, counts->hollow + counts->num_hollow);
     counts->num_hollow += Count(is_hollow);
     is_other = hn::AndNot(is_hollow, is_other);
   }

@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include "modules/geometry/packing-inl.h"
 #include "modules/model_verifier/ray_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -83,15 +84,6 @@ HWY_INLINE Vector3 NormalsAt(const RayWindow& window, int u, int v) {
   const auto of_pixels = hn::IndicesFromVec(f, hn::ShiftRight<1>(hn::Iota(Ints(), u & 1)));
   return {hn::TableLookupLanes(n.x, of_pixels), hn::TableLookupLanes(n.y, of_pixels),
           hn::TableLookupLanes(n.z, of_pixels)};
-}
-
-// Writes the marked values one behind the other, and anything behind the last of them. To compress
-// in a register is many times faster than hn::CompressStore on processors that do that in
-// microcode.
-template <class D>
-HWY_INLINE void Append(D d, const hn::Vec<D>& values, const hn::Mask<D>& is_marked,
-                       hn::TFromD<D>* end) {
-  hn::StoreU(hn::Compress(values, is_marked), d, end);
 }
 
 HWY_INLINE Vector Tolerance(const RayLimits& limits, const Vector& z) {

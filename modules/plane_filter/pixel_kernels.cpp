@@ -9,6 +9,8 @@
 #include <hwy/foreach_target.h>  // compiles the rest of this file once for each target
 #include <hwy/highway.h>
 
+#include "modules/geometry/packing-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace declutter {
 namespace HWY_NAMESPACE {
@@ -220,7 +222,8 @@ HWY_INLINE size_t SquaredDistances(const PointWindow& window, size_t u, int half
       const auto dy = hn::Sub(hn::Mul(other_y, value), hn::Mul(y, other));
       const auto dz = hn::Sub(value, other);
       const auto square = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-      hn::StoreU(hn::Compress(hn::Div(square, hn::Mul(other, other)), is_other), f, squares + num);
+      const auto relative = hn::Div(square, hn::Mul(other, other));
+      hn::StoreU(Packing<Floats>(f, is_other)(relative), f, squares + num);
       num += hn::CountTrue(f, is_other);
     }
   }
@@ -249,7 +252,7 @@ HWY_INLINE size_t KeepPart(const float* values, size_t num, float low, float hig
   for (size_t i = 0; i < num; i += hn::Lanes(f)) {
     const auto value = hn::LoadU(f, values + i);
     const auto is_kept = hn::And(hn::Gt(value, above), hn::Le(value, below));
-    hn::StoreU(hn::Compress(value, is_kept), f, kept + num_kept);
+    hn::StoreU(Packing<Floats>(f, is_kept)(value), f, kept + num_kept);
     num_kept += hn::CountTrue(f, is_kept);
   }
   hn::StoreU(hn::Set(f, kInfinity), f, kept + num_kept);
@@ -290,7 +293,7 @@ float MeanOfNearest(const PointWindow& window, size_t u, int half, size_t num_ne
   for (size_t i = 0; i < num; i += hn::Lanes(f)) {
     const auto square = hn::LoadU(f, squares + i);
     const auto is_nearer = hn::Lt(square, hn::Set(f, farthest));
-    hn::StoreU(hn::Compress(hn::Sqrt(square), is_nearer), f, squares + num_nearer);
+    hn::StoreU(Packing<Floats>(f, is_nearer)(hn::Sqrt(square)), f, squares + num_nearer);
     num_nearer += hn::CountTrue(f, is_nearer);
   }
   float sum = 0;
