@@ -198,6 +198,7 @@ bool ModelSelection::Unite(size_t old, const Input& input) {
     const auto added = AddRefined(hypothesis, 0, input);
     if (!added) continue;
     const Candidate& whole = candidates_[*added];
+    const double share = kMinShare * (1 - whole.misfit_share);
     const double max_violating = larger.evidence.num_violating + evidence.num_violating +
                                  kMaxNewViolating * evidence.num_explained();
     const auto is_part = [&](size_t i) { return i == old || i == part; };
@@ -206,7 +207,9 @@ bool ModelSelection::Unite(size_t old, const Input& input) {
         std::all_of(blockers.begin(), blockers.end(), is_part) &&
         TotalSeenThrough({*added}, input) <
             kMaxSeenThrough + TotalSeenThrough({old, part}, input) &&
-        Replace(Only({old, part}), added, input, kMinShare * (1 - whole.misfit_share))) {
+        Replace(Only({old, part}), added, input, share)) {
+      // What is less than both together is not to be divided again.
+      candidates_[*added].worth = 1 / share;
       candidates_[old].is_out = candidates_[part].is_out = true;
       return true;
     }

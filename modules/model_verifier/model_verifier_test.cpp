@@ -226,6 +226,24 @@ TEST(ModelVerifier, UnitesWhatIsSeenOnBothSidesOfAnObstacle) {
   EXPECT_THAT(Verify(apart, {left, right}).objects, SizeIs(2));
 }
 
+TEST(ModelVerifier, DividesNotAgainWhatItUnites) {
+  // Behind an obstacle; a box as a sensor bends it, which two explain somewhat better.
+  const RenderedScene scene = RenderText(
+      "object { box { size_x_m: 0.105 size_y_m: 0.1 size_z_m: 0.05 } x_m: -0.0975 y_m: 0.75 }"
+      "object { box { size_x_m: 0.15 size_y_m: 0.1 size_z_m: 0.053 } x_m: 0.08 y_m: 0.75 "
+      "yaw_rad: 0.04 }"
+      "object { box { size_x_m: 0.06 size_y_m: 0.06 size_z_m: 0.25 } x_m: -0.02 y_m: 0.62 }"
+      "noise { sensor_seed: 35 }");
+  std::vector<Hypothesis> hypotheses = {Proposal(scene.objects[2].solid)};
+  for (const double growth : {0.0, -0.004}) {
+    hypotheses.push_back(
+        Proposal(Changed(scene.objects[0].solid, {0.5 * growth, 0, 0}, {growth, 0, 0})));
+    hypotheses.push_back(
+        Proposal(Changed(scene.objects[1].solid, {-0.5 * growth, 0, 0}, {growth, 0, 0})));
+  }
+  EXPECT_THAT(Verify(scene, hypotheses).objects, SizeIs(2));
+}
+
 TEST(ModelVerifier, LeavesNeighboursOfTwoHeightsApartBehindAnObstacle) {
   const RenderedScene scene = RenderText(
       "object { box { size_x_m: 0.04 size_y_m: 0.06 size_z_m: 0.05 } x_m: -0.0405 y_m: 0.72 }"
