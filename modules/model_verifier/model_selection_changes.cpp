@@ -83,12 +83,12 @@ std::optional<size_t> ModelSelection::AddOver(const std::vector<uint8_t>& is_mar
   return best;
 }
 
-// Gives the place of a cylinder whose radius changes on its way down to its upper part: it may
-// stand on another that continues its side. True when that explains more.
+// Gives the place of an upright cylinder whose radius changes on its way down to its upper part: it
+// may stand on another that continues its side. True when that explains more.
 bool ModelSelection::CutLower(size_t old, const Input& input) {
   constexpr double kMaxMisfit = 0.6;  // [sigma]
   const Solid& solid = candidates_[old].hypothesis.solid;
-  if (solid.shape != Shape::kCylinder) return false;
+  if (solid.shape != Shape::kCylinder || !IsUpright(solid, input.observation.support)) return false;
   std::vector<Eigen::Vector3d>& points_O = input.buffers->explained_O;
   FindExplainedPoints(solid, candidates_[old].evidence, input.observation, &points_O);
   const double misfit =
