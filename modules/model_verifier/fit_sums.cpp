@@ -123,26 +123,30 @@ SideSums SumSide(const FitArrays& points, const SideRegion& region) {
     // those of the point, what is measured too far back would seem more oblique, count more, and
     // make the radius smaller.
     const Vector3 ray = Load(points.ray, i);
-    const auto slope = hn::Sqrt(hn::Add(hn::Mul(ray.x, ray.x), hn::Mul(ray.y, ray.y)));
-    const auto ux = hn::Div(ray.x, slope), uy = hn::Div(ray.y, slope);
+    const auto ray_sine = hn::Sqrt(hn::Add(hn::Mul(ray.x, ray.x), hn::Mul(ray.y, ray.y)));
+    const auto ux = hn::Div(ray.x, ray_sine), uy = hn::Div(ray.y, ray_sine);
     const auto x = hn::Sub(Load(points.p, 0, i), Constant(region.x));
     const auto y = hn::Sub(Load(points.p, 1, i), Constant(region.y));
     const auto along_ray = hn::Add(hn::Mul(x, ux), hn::Mul(y, uy));
     const auto across = hn::Div(hn::Sub(hn::Mul(y, ux), hn::Mul(x, uy)), radius);
-    const auto depth =
+    const auto cosine_across =
         hn::Sqrt(hn::Max(hn::Sub(Constant(1.0f), hn::Mul(across, across)), hn::Zero(f)));
-    const auto cosine = hn::Mul(depth, slope);
+    const auto cosine = hn::Mul(cosine_across, ray_sine);
     is_on = hn::And(is_on, hn::Ge(cosine, Constant(region.min_incidence_cos)));
     if (hn::AllFalse(f, is_on)) continue;
-    const auto residual = hn::Neg(hn::Mul(depth, hn::Add(along_ray, hn::Mul(radius, depth))));
+    const auto residual =
+        hn::Neg(hn::Mul(cosine_across, hn::Add(along_ray, hn::Mul(radius, cosine_across))));
     const auto tolerance =
         hn::Max(Constant(region.min_tolerance_m),
                 hn::Mul(Constant(region.tolerance_in_sigmas), hn::LoadU(f, points.sigma + i)));
-    is_on = hn::And(is_on, hn::Le(hn::Abs(residual), tolerance));
+    const auto limit = hn::Mul(tolerance, hn::Max(cosine, Constant(0.5f)));
+    const auto is_in_front = hn::Le(along_ray, hn::Zero(f));
+    is_on = hn::And(is_on, hn::And(is_in_front, hn::Le(hn::Abs(residual), limit)));
     if (hn::AllFalse(f, is_on)) continue;
-    const auto nx =
-        hn::IfThenElseZero(is_on, hn::Sub(hn::Neg(hn::Mul(depth, ux)), hn::Mul(across, uy)));
-    const auto ny = hn::IfThenElseZero(is_on, hn::Sub(hn::Mul(across, ux), hn::Mul(depth, uy)));
+    const auto nx = hn::IfThenElseZero(
+        is_on, hn::Sub(hn::Neg(hn::Mul(cosine_across, ux)), hn::Mul(across, uy)));
+    const auto ny =
+        hn::IfThenElseZero(is_on, hn::Sub(hn::Mul(across, ux), hn::Mul(cosine_across, uy)));
     const Vector3 n = Load(points.n, i);
     const auto is_turned_away = hn::And(
         IsKnown(n),

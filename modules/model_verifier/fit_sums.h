@@ -27,10 +27,11 @@ FaceSums SumFace(const FitArrays& points, const FaceRegion& region);
 
 // The side of a cylinder about (x, y) of O.
 struct SideRegion {
-  float x = 0, y = 0, radius = 0;                      // [m]
-  float min_tolerance_m = 0, tolerance_in_sigmas = 0;  // of the distance to the side
-  float min_incidence_cos = 0;                         // of the ray to the side
-  float min_normal_cos = 0;                            // of a measured normal
+  float x = 0, y = 0, radius = 0;  // [m]
+  // Of the distance to the side, less where it is seen obliquely.
+  float min_tolerance_m = 0, tolerance_in_sigmas = 0;
+  float min_incidence_cos = 0;  // of the ray to the side, more than 0
+  float min_normal_cos = 0;     // of a measured normal
 };
 
 // Of the distances r along the rays from the side to the points, by the cosine of incidence, whose

@@ -95,7 +95,8 @@ TEST(FitSums, OfAFaceAreThoseOfItsPoints) {
   }
 }
 
-// Where the ray through a point, seen from above, first meets the circle of Side().
+// Where the ray through a point, seen from above, first meets the circle of Side(); nothing for one
+// on the far side.
 struct Foot {
   Eigen::Vector2d n;    // outward normal there
   double cosine = 0;    // of incidence
@@ -107,7 +108,7 @@ std::optional<Foot> FootOnSide(const Eigen::Vector2d& p, const Eigen::Vector2d& 
   const Eigen::Vector2d u = ray.normalized();
   const Eigen::Vector2d nearest = p - p.dot(u) * u;
   const double half_chord = std::sqrt(radius * radius - nearest.squaredNorm());
-  if (!(half_chord > 0)) return std::nullopt;
+  if (!(half_chord > 0) || p.dot(u) > 0) return std::nullopt;
   const Eigen::Vector2d met = nearest - half_chord * u;
   const Eigen::Vector2d n = met / radius;
   return Foot{n, -n.dot(ray), n.dot(p - met)};
@@ -125,8 +126,8 @@ TEST(FitSums, OfASideAreThoseOfItsPoints) {
     if (!foot) continue;
     const double nx = foot->n.x(), ny = foot->n.y(), r = foot->distance;
     const bool is_turned_away = a.n[2][i] != 0 && nx * a.n[0][i] + ny * a.n[1][i] < 0.3;
-    if (std::abs(r) > std::max(0.005, 3.0 * a.sigma[i]) || foot->cosine < 0.2 || is_turned_away)
-      continue;
+    const double tolerance = std::max(0.005, 3.0 * a.sigma[i]) * std::max(foot->cosine, 0.5);
+    if (std::abs(r) > tolerance || foot->cosine < 0.2 || is_turned_away) continue;
     const double sigma = a.sigma[i] * foot->cosine;
     const double w = 1 / (sigma * sigma);
     ++expected.num;

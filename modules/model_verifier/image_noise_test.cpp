@@ -4,9 +4,12 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "modules/geometry/sensor_noise.h"
+#include "modules/scene_renderer/scene_renderer.h"
+#include "modules/scene_renderer/scene_text.h"
 
 namespace declutter {
 namespace {
@@ -69,7 +72,19 @@ TEST(ImageNoise, IsIndependentWherePixelsDeviateByThemselves) {
   EXPECT_LT(NoiseOf(NoisyPlane(1, 4)).independence, 0.5);
 }
 
-TEST(ImageNoise, IsThatOfAKinectWhereNoPlaneIsSeen) {
+double IndependenceOf(const std::string& model) {
+  const RenderedScene scene = Render(ParseScene("noise { model: \"" + model + "\" }", "scene"), 1);
+  PixelGrid every_pixel;
+  every_pixel.Set(scene.depth, 1);
+  return ImageNoiseMeter().Measure(every_pixel, scene.table).independence;
+}
+
+TEST(ImageNoise, TellsWindowsFromPixels) {
+  EXPECT_LT(IndependenceOf("real_sensor"), 0.5);
+  EXPECT_GT(IndependenceOf("white"), 0.95);
+}
+
+TEST(ImageNoise, HasLevelOneAndIsNotIndependentWhereNoPlaneIsSeen) {
   DepthImage image = NoisyPlane(0.5, 1);
   for (uint16_t& count : image.counts) count = static_cast<uint16_t>(count - 500);
   EXPECT_EQ(NoiseOf(image).level, 1);

@@ -26,7 +26,7 @@ struct Candidate {
   bool is_gain_known = false;
   bool is_reshaped = false;   // the other shape was tried
   int num_blockers = 0;       // selected candidates in its space
-  double worth = 1;           // of its gain, where others are to take its place
+  double gain_factor = 1;     // of what others must explain to take its place, see Unite
   double misfit_share = 0;    // of its pixels, that count against it as it looks like another shape
   double gain = 0;            // [px] explained by it alone, less what speaks against it
   double selection_gain = 0;  // [px] the same when it was chosen
@@ -37,7 +37,7 @@ struct Candidate {
     is_refined = is_out = is_selected = is_gain_known = is_reshaped = false;
     num_blockers = 0;
     misfit_share = 0;
-    worth = 1;
+    gain_factor = 1;
   }
 };
 

@@ -209,7 +209,7 @@ bool ModelSelection::Unite(size_t old, const Input& input) {
             kMaxSeenThrough + TotalSeenThrough({old, part}, input) &&
         Replace(Only({old, part}), added, input, share)) {
       // What is less than both together is not to be divided again.
-      candidates_[*added].worth = 1 / share;
+      candidates_[*added].gain_factor = 1 / share;
       candidates_[old].is_out = candidates_[part].is_out = true;
       return true;
     }

@@ -106,7 +106,7 @@ bool ModelSelection::Replace(const std::vector<size_t>& old, std::optional<size_
   double old_gain = 0;
   for (const size_t i : old) {
     Release(i);
-    old_gain += candidates_[i].worth * Gain(&candidates_[i]);
+    old_gain += candidates_[i].gain_factor * Gain(&candidates_[i]);
     candidates_[i].is_out = true;
   }
   double new_gain = 0;

@@ -23,11 +23,11 @@ struct Observation {
   const std::vector<uint8_t>* owners = nullptr;
   uint8_t owner = 0;
 
-  // The same at the pixels of another grid.
+  // The same at the pixels of another grid, of which nobody knows the owners.
   Observation At(const PixelGrid& other) const { return {image, other, normals, support, noise}; }
-  // The same for one of the owners.
-  Observation For(uint8_t looking, const std::vector<uint8_t>& owning) const {
-    return {image, grid, normals, support, noise, &owning, looking};
+  // The same as one of the owners sees it.
+  Observation For(uint8_t looking, const std::vector<uint8_t>& owners_of_pixels) const {
+    return {image, grid, normals, support, noise, &owners_of_pixels, looking};
   }
 
   // The first row or column of the grid that is not before `begin` [px of the image].

@@ -42,15 +42,15 @@ void SeparateFits::Run(const ObservedImage& observed, const std::vector<Candidat
       const Solid before = *solid;
       Claim(i, window);
       // A cylinder that is too large would explain what touches it.
-      const Observation judging = solid->shape == Shape::kCylinder
-                                      ? half.For(static_cast<uint8_t>(i + 1), owners_.owners())
-                                      : half;
-      CastRays(before, judging, &own_);
-      const FitResult result = fit == 0 ? RefineOrClimb(apart, judging, solid, &own_, buffers)
-                                        : RefineIfNoWorse(apart, judging, solid, &own_, buffers);
-      const double change = Change(before, *solid);
-      is_moving_[i] = result.is_fitted && change > kRest;
-      if (change > 0) CastRays(*solid, half, &candidate.evidence);
+      const bool is_cylinder = solid->shape == Shape::kCylinder;
+      const Observation judging =
+          is_cylinder ? half.For(static_cast<uint8_t>(i + 1), owners_.owners()) : half;
+      RayEvidence* const evidence = is_cylinder ? &own_ : &candidate.evidence;
+      if (is_cylinder) CastRays(before, judging, evidence);
+      const FitResult result = fit == 0 ? RefineOrClimb(apart, judging, solid, evidence, buffers)
+                                        : RefineIfNoWorse(apart, judging, solid, evidence, buffers);
+      is_moving_[i] = result.is_fitted && Change(before, *solid) > kRest;
+      if (is_cylinder) CastRays(*solid, half, &candidate.evidence);
       for (const ptrdiff_t pixel : claimed_) grid_.z[static_cast<size_t>(pixel)] *= -1;
     }
   }

@@ -25,7 +25,7 @@ class SeparateFits {
   std::vector<const RayEvidence*> evidence_;  // of each candidate
   std::vector<char> is_moving_;               // the same
   std::vector<ptrdiff_t> claimed_;            // pixels of grid_, by the solid that is fitted
-  RayEvidence own_;                           // of that solid, without what others own
+  RayEvidence own_;                           // of that cylinder, without what others own
 };
 
 }  // namespace declutter

@@ -52,6 +52,11 @@ nlohmann::json ReadJson(const fs::path& path) {
 
 // Adds what limits the accuracy of estimates to the truth of a rendered scene.
 void AddBounds(const fs::path& scene, const nlohmann::json& json, SceneTruth* truth) {
+  const auto& objects = truth->objects;
+  const bool has_cylinder = std::any_of(objects.begin(), objects.end(), [](const TrueObject& o) {
+    return o.shape == Shape::kCylinder && o.solid;
+  });
+  if (!has_cylinder || truth->labels.empty()) return;
   const SceneNoise noise = ReadScene((scene / "scene.textproto").string()).noise();
   const auto depth = imaging::ReadGray16Png((scene / "depth.png").string());
   const PinholeCamera camera = {depth.width,

@@ -84,7 +84,8 @@ void AddSizeErrors(const ObjectModel& model, const TrueObject& object, ErrorTabl
     if (IsWellSeen(object)) {
       Add(table, "cylinder radius well seen mm", error_mm);
     } else if (object.radius_bound_m) {
-      Add(table, "cylinder radius else, bounds", error_mm / (kMmPerM * *object.radius_bound_m));
+      Add(table, "cylinder radius partly seen, bounds",
+          error_mm / (kMmPerM * *object.radius_bound_m));
     }
     if (object.size_tolerance_m && *object.size_tolerance_m <= kWellKnown) {
       Add(table, "cylinder radius well known mm", error_mm);

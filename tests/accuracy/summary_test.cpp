@@ -132,6 +132,21 @@ TEST(Summarize, CountsRadiiApartThatAreWellSeenOrWellKnown) {
   EXPECT_NEAR(Errors(summary, "cylinder radius well known mm")->at(0), 0, 1e-9);
 }
 
+TEST(Summarize, ComparesRadiiPartlySeenWithTheirBound) {
+  ScoredFrame frame = OneOfEach();
+  TrueObject& can = frame.truth.objects[1];
+  can.shape = Shape::kCylinder;
+  frame.score.objects[1].model = 1;
+  can.size->x() += 0.004;
+  can.radius_bound_m = 0.0005;
+  const Summary summary = Summarize({frame});
+  ASSERT_NE(Errors(summary, "cylinder radius partly seen, bounds"), nullptr);
+  EXPECT_NEAR(Errors(summary, "cylinder radius partly seen, bounds")->at(0), -4, 1e-9);
+  can.num_px = 1500;
+  can.visible_fraction = 0.9;
+  EXPECT_EQ(Errors(Summarize({frame}), "cylinder radius partly seen, bounds"), nullptr);
+}
+
 TEST(SpreadOf, GivesMeanAndStandardDeviation) {
   const Spread spread = SpreadOf({-1, 0, 4});
   EXPECT_DOUBLE_EQ(spread.mean, 1);

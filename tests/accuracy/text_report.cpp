@@ -89,11 +89,11 @@ void WriteBins(const char* title, const std::vector<RecallBin>& bins, std::ostre
 }
 
 void WriteErrors(const ErrorTable& errors, std::ostream& out) {
-  out << Format("\n%-30s %6s %9s %9s %9s %9s %9s\n", "error of right models", "number", "median",
+  out << Format("\n%-36s %6s %9s %9s %9s %9s %9s\n", "error of right models", "number", "median",
                 "|median|", "|p90|", "mean", "sd");
   for (const auto& [name, values] : errors) {
     const Spread spread = SpreadOf(values);
-    out << Format("%-30s %6zu %+9.2f %9.2f %9.2f %+9.2f %9.2f\n", name.c_str(), spread.num,
+    out << Format("%-36s %6zu %+9.2f %9.2f %9.2f %+9.2f %9.2f\n", name.c_str(), spread.num,
                   spread.median, spread.median_abs, spread.p90_abs, spread.mean, spread.sd);
   }
 }
