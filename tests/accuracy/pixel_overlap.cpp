@@ -71,6 +71,16 @@ PixelOverlap MeasureOverlap(const SceneTruth& truth, const ObjectList& found) {
   return overlap;
 }
 
+std::vector<std::vector<int>> PixelsOfObjects(const SceneTruth& truth) {
+  std::vector<std::vector<int>> pixels(truth.objects.size());
+  const IndexByValue object_of = IndexObjects(truth.objects);
+  for (size_t i = 0; i < truth.labels.size(); ++i) {
+    const size_t object = object_of[truth.labels[i]];
+    if (object != kNone) pixels[object].push_back(static_cast<int>(i));
+  }
+  return pixels;
+}
+
 std::optional<size_t> ModelAt(const ObjectList& found, const Eigen::Vector2i& seed_px,
                               int max_distance_px) {
   if (found.labels.empty()) return std::nullopt;

@@ -23,6 +23,9 @@ struct PixelOverlap {
 };
 PixelOverlap MeasureOverlap(const SceneTruth& truth, const ObjectList& found);
 
+// Indices, row * width + column, of the pixels of each true object in the label image.
+std::vector<std::vector<int>> PixelsOfObjects(const SceneTruth& truth);
+
 // Index of the model whose pixel is nearest to seed_px, within max_distance_px.
 std::optional<size_t> ModelAt(const ObjectList& found, const Eigen::Vector2i& seed_px,
                               int max_distance_px);

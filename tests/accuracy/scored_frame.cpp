@@ -8,6 +8,7 @@
 #include "modules/imaging/png_file.h"
 #include "modules/scene_renderer/scene_text.h"
 #include "tests/accuracy/exported_objects.h"
+#include "tests/accuracy/pixel_overlap.h"
 #include "tests/accuracy/radius_bound.h"
 
 namespace declutter::accuracy {
@@ -66,17 +67,16 @@ void AddBounds(const fs::path& scene, const nlohmann::json& json, SceneTruth* tr
                                 json.at("cx").get<double>(),
                                 json.at("cy").get<double>()};
   if (truth->labels.size() != depth.pixels.size()) return;
-  std::vector<int> pixels;
-  for (TrueObject& object : truth->objects) {
+  std::vector<std::vector<int>> pixels = PixelsOfObjects(*truth);
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    TrueObject& object = truth->objects[i];
     if (object.shape != Shape::kCylinder || !object.solid) continue;
-    pixels.clear();
-    for (int i = 0; i < camera.num_pixels(); ++i) {
-      const int label = truth->labels[static_cast<size_t>(i)];
-      const bool is_own =
-          std::find(object.labels.begin(), object.labels.end(), label) != object.labels.end();
-      if (is_own && depth.pixels[static_cast<size_t>(i)] > 0) pixels.push_back(i);
-    }
-    object.radius_bound_m = RadiusBound(*object.solid, camera, pixels, noise);
+    const auto is_unmeasured = [&](int pixel) {
+      return depth.pixels[static_cast<size_t>(pixel)] == 0;
+    };
+    pixels[i].erase(std::remove_if(pixels[i].begin(), pixels[i].end(), is_unmeasured),
+                    pixels[i].end());
+    object.radius_bound_m = RadiusBound(*object.solid, camera, pixels[i], noise);
   }
 }
 

@@ -8,6 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "modules/imaging/png_file.h"
+#include "modules/scene_renderer/scene_folder.h"
+#include "modules/scene_renderer/scene_renderer.h"
+#include "modules/scene_renderer/scene_text.h"
 
 namespace declutter::accuracy {
 namespace {
@@ -104,6 +107,21 @@ TEST_F(ScoreFolderTest, LeavesOutScenesWithoutTruth) {
   AddScene(scenes() / "01", R"({"width": 4, "height": 4})");
   AddResult("01", "");
   EXPECT_TRUE(ScoreFolder(scenes(), results()).empty());
+}
+
+TEST_F(ScoreFolderTest, BoundsTheRadiiOfRenderedCylinders) {
+  const RenderedScene scene =
+      Render(ParseScene("object { cylinder {} } object { box {} x_m: 0.2 }", "scene"), 1);
+  WriteSceneFolder(scene, "01", (scenes() / "01").string());
+  AddResult("01", "");
+  const auto frames = ScoreFolder(scenes(), results());
+  ASSERT_EQ(frames.size(), 1u);
+  const auto& objects = frames[0].truth.objects;
+  ASSERT_EQ(objects.size(), 2u);
+  ASSERT_TRUE(objects[0].radius_bound_m);
+  EXPECT_GT(*objects[0].radius_bound_m, 1e-4);
+  EXPECT_LT(*objects[0].radius_bound_m, 1e-3);
+  EXPECT_FALSE(objects[1].radius_bound_m);
 }
 
 TEST_F(ScoreFolderTest, SaysWhichLineOfTheResultsIsBroken) {
