@@ -12,7 +12,7 @@ struct ImageNoise {
   // How large the errors are that many points of a surface share, as a multiple of a Kinect's. 1
   // where too little of the plane is seen.
   double level = 1;
-  // In [0, 1]: how little pixels beside each other share of their errors. About 0.3 of a Kinect,
+  // In [0, 1]: how little pixels beside each other share of their errors. About 0.4 of a Kinect,
   // whose depths are those of windows of pixels, 1 where each is measured by itself. 0 where too
   // little is seen.
   double independence = 0;

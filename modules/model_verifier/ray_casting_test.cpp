@@ -120,14 +120,19 @@ TEST(CastRays, LeavesATopBesideTheSolidToWhatExplainsIt) {
   EXPECT_EQ(NumOverhangingAlone(evidence, num_explaining), evidence.num_overhanging() - 20);
 }
 
+struct ObservedWall {
+  DepthImage image = Wall(950);
+  Plane support = FarPlane();
+  ObservedImage observed;
+
+  ObservedWall() { observed.Set(image, support); }
+};
+
 TEST(CastRays, CountsAboutTheSameAtEverySecondPixel) {
   const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
-  const DepthImage image = Wall(950);
-  const Plane support = FarPlane();
-  ObservedImage observed;
-  observed.Set(image, support);
-  const RayEvidence all = CastRays(solid, observed.every_pixel());
-  const RayEvidence some = CastRays(solid, observed.every_second_pixel());
+  const ObservedWall wall;
+  const RayEvidence all = CastRays(solid, wall.observed.every_pixel());
+  const RayEvidence some = CastRays(solid, wall.observed.every_second_pixel());
   EXPECT_EQ(some.pixel_weight, 4);
   EXPECT_NEAR(some.num_explained(), all.num_explained(), 0.2 * all.num_explained());
   EXPECT_NEAR(some.Balance(), all.Balance(), 0.2 * all.Balance());
@@ -135,13 +140,10 @@ TEST(CastRays, CountsAboutTheSameAtEverySecondPixel) {
 
 TEST(CastRays, LeavesPixelsToTheirOwners) {
   const Solid solid = FacingSolid(Shape::kBox, 1.0, {0.2, 0.2, 0.1});
-  const DepthImage image = Wall(950);
-  const Plane support = FarPlane();
-  ObservedImage observed;
-  observed.Set(image, support);
-  const Observation observation = observed.every_pixel();
+  const ObservedWall wall;
+  const Observation observation = wall.observed.every_pixel();
   const RayEvidence all = CastRays(solid, observation);
-  std::vector<uint8_t> owners(image.counts.size(), 0);
+  std::vector<uint8_t> owners(wall.image.counts.size(), 0);
   for (size_t i = 0; i < 20; ++i) owners[static_cast<size_t>(all.explained[i])] = 2;
   const RayEvidence own = CastRays(solid, observation.For(2, owners));
   EXPECT_EQ(own.Fit(), all.Fit());

@@ -49,8 +49,9 @@ void SeparateFits::Run(const ObservedImage& observed, const std::vector<Candidat
       if (is_cylinder) CastRays(before, judging, evidence);
       const FitResult result = fit == 0 ? RefineOrClimb(apart, judging, solid, evidence, buffers)
                                         : RefineIfNoWorse(apart, judging, solid, evidence, buffers);
-      is_moving_[i] = result.is_fitted && Change(before, *solid) > kRest;
-      if (is_cylinder) CastRays(*solid, half, &candidate.evidence);
+      const double change = Change(before, *solid);
+      is_moving_[i] = result.is_fitted && change > kRest;
+      if (is_cylinder && change > 0) CastRays(*solid, half, &candidate.evidence);
       for (const ptrdiff_t pixel : claimed_) grid_.z[static_cast<size_t>(pixel)] *= -1;
     }
   }

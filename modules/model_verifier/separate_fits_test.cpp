@@ -25,6 +25,28 @@ TEST(PixelOwners, AreTheSolidsThatPixelsFitBest) {
   EXPECT_EQ(owners.owners(), (std::vector<uint8_t>{1, 2, 1, 0, 2, 0}));
 }
 
+// Candidates that are these solids, fitted.
+std::vector<Candidate> FitSeparately(const std::vector<Solid>& solids,
+                                     const ObservedImage& observed) {
+  std::vector<Candidate> candidates(solids.size());
+  std::vector<Candidate*> selected;
+  for (size_t i = 0; i < solids.size(); ++i) {
+    candidates[i].hypothesis.solid = solids[i];
+    CastRays(solids[i], observed.every_second_pixel(), &candidates[i].evidence);
+    selected.push_back(&candidates[i]);
+  }
+  FitBuffers buffers;
+  SeparateFits fits;
+  fits.Run(observed, selected, &buffers);
+  return candidates;
+}
+
+std::vector<Solid> SolidsIn(const RenderedScene& scene) {
+  std::vector<Solid> solids;
+  for (const TrueObject& object : scene.objects) solids.push_back(object.solid);
+  return solids;
+}
+
 // A low box, and one in contact with it whose top and right side continue those of the first.
 constexpr char kScene[] =
     "object { box { size_x_m: 0.1 size_y_m: 0.08 size_z_m: 0.08 } x_m: -0.15 y_m: 0.6 }"
@@ -34,21 +56,13 @@ TEST(SeparateFits, KeepBoxesApartOfWhichOneContinuesTheOther) {
   const RenderedScene scene = Render(ParseScene(kScene, "scene"), 1);
   ObservedImage observed;
   observed.Set(scene.depth, scene.table);
-  std::vector<Candidate> candidates(2);
-  std::vector<Candidate*> selected;
-  for (size_t i = 0; i < candidates.size(); ++i) {
-    candidates[i].hypothesis.solid = scene.objects[i].solid;
-    CastRays(scene.objects[i].solid, observed.every_second_pixel(), &candidates[i].evidence);
-    selected.push_back(&candidates[i]);
-  }
-  FitBuffers buffers;
+  FitPoints buffer;
   const Solid& truth = scene.objects[0].solid;
   Solid together = truth;
-  for (int i = 0; i < 2; ++i) together = Refine(together, observed.every_pixel(), &buffers.points);
+  for (int i = 0; i < 2; ++i) together = Refine(together, observed.every_pixel(), &buffer);
   EXPECT_GT(together.size.y(), truth.size.y() + 0.010);
 
-  SeparateFits fits;
-  fits.Run(observed, selected, &buffers);
+  const std::vector<Candidate> candidates = FitSeparately(SolidsIn(scene), observed);
   for (size_t i = 0; i < candidates.size(); ++i) {
     const Solid& solid = candidates[i].hypothesis.solid;
     EXPECT_LT((solid.size - scene.objects[i].solid.size).cwiseAbs().maxCoeff(), 0.003) << i;
@@ -70,21 +84,10 @@ TEST(SeparateFits, LeaveToOthersWhatACylinderThatIsTooLargeReaches) {
   const RenderedScene scene = Render(ParseScene(kCanBetweenBoxes, "scene"), 1);
   ObservedImage observed;
   observed.Set(scene.depth, scene.table);
-  std::vector<Candidate> candidates(4);
-  std::vector<Candidate*> selected;
-  for (size_t i = 0; i < candidates.size(); ++i) {
-    candidates[i].hypothesis.solid = scene.objects[i].solid;
-    selected.push_back(&candidates[i]);
-  }
-  Solid& can = candidates[0].hypothesis.solid;
-  can.size.head<2>().array() += 0.010;
-  can.X_CO.translation() += can.X_CO.linear() * Eigen::Vector3d(0, 0.005, 0);
-  for (Candidate& candidate : candidates) {
-    CastRays(candidate.hypothesis.solid, observed.every_second_pixel(), &candidate.evidence);
-  }
-  FitBuffers buffers;
-  SeparateFits fits;
-  fits.Run(observed, selected, &buffers);
+  std::vector<Solid> solids = SolidsIn(scene);
+  solids[0].size.head<2>().array() += 0.010;
+  solids[0].X_CO.translation() += solids[0].X_CO.linear() * Eigen::Vector3d(0, 0.005, 0);
+  const Solid can = FitSeparately(solids, observed)[0].hypothesis.solid;
   EXPECT_NEAR(can.radius(), 0.025, 0.001);
 }
 
