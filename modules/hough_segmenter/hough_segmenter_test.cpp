@@ -192,6 +192,7 @@ TEST(HoughSegmenter, SharesTheTestsOfAFrameAmongItsComponents) {
   const Tiles tiles(320, 4, 3);
   HoughSegmenterConfig config;
   config.set_max_cell_tests(200000);
+  config.set_num_iterations(25);
   HoughSegmenter segmenter(config);
   const HypothesisList list = segmenter.Segment(tiles.tabletop, tiles.features);
   std::set<int> found;

@@ -12,7 +12,6 @@
 namespace declutter::benchmark {
 namespace {
 
-constexpr int kNumIterations = 25;  // I
 constexpr double kLeaf_m = 0.004;
 constexpr int kNumThreads = 2;
 
@@ -72,8 +71,8 @@ StageTasks MakeStageTasks(const std::string& kind, const std::vector<BenchFrame>
   const auto filter = std::make_shared<PlaneFilter>(PlaneFilterConfig());
   const auto estimator = std::make_shared<FeatureEstimator>(FeatureEstimatorConfig());
   const auto paper_estimator = std::make_shared<FeatureEstimator>(PaperFeatures());
-  HoughSegmenterConfig voting;
-  voting.set_num_iterations(kNumIterations);
+  const HoughSegmenterConfig voting;
+  const int num_iterations = voting.num_iterations();
   const auto segmenter = std::make_shared<HoughSegmenter>(voting);
   const auto verifier = std::make_shared<ModelVerifier>(ModelVerifierConfig());
 
@@ -110,10 +109,11 @@ StageTasks MakeStageTasks(const std::string& kind, const std::vector<BenchFrame>
     Keep(segmenter->Segment(frames[f].tabletop, frames[f].features));
   });
   segment.pcl = stages.Add(
-      "hough_segmenter pcl", [pcl](size_t f) { (*pcl)[f].Segment(kNumIterations); }, true);
-  segment.pcl_voxels = stages.Add(
-      "hough_segmenter pcl voxels", [voxels](size_t f) { (*voxels)[f].Segment(kNumIterations); },
+      "hough_segmenter pcl", [pcl, num_iterations](size_t f) { (*pcl)[f].Segment(num_iterations); },
       true);
+  segment.pcl_voxels = stages.Add(
+      "hough_segmenter pcl voxels",
+      [voxels, num_iterations](size_t f) { (*voxels)[f].Segment(num_iterations); }, true);
   stages.Add(segment);
 
   stages.Add(stages.Ours("model_verifier", "default", [&frames, verifier](size_t f) {
