@@ -104,14 +104,21 @@ HWY_INLINE void FindInPixels(const RaySolid& solid, const RayWindow& window,
   AppendPoints(points, hn::IfThenElseZero(hn::RebindMask(Ints(), is_near), bits), arrays);
 }
 
-void FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
-                   FitArrays* points) {
-  points->num = 0;
+// Takes copies: what is behind a reference would be loaded anew after each store of a vector.
+HWY_INLINE size_t FindIn(const RaySolid solid, const RayWindow window, const FitLimits limits,
+                         FitArrays points) {
+  points.num = 0;
   for (int v = window.v_begin; v < window.v_end; ++v) {
     for (int u = window.u_begin; u < window.u_end; u += static_cast<int>(hn::Lanes(Floats()))) {
-      FindInPixels(solid, window, limits, u, v, points);
+      FindInPixels(solid, window, limits, u, v, &points);
     }
   }
+  return points.num;
+}
+
+void FindFitPoints(const RaySolid& solid, const RayWindow& window, const FitLimits& limits,
+                   FitArrays* points) {
+  points->num = FindIn(solid, window, limits, *points);
 }
 
 }  // namespace HWY_NAMESPACE

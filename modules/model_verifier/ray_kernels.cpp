@@ -256,16 +256,19 @@ HWY_INLINE void CastPixels(const RaySolid& solid, const RayWindow& window, const
                         passage, u, v, counts);
 }
 
+// Takes copies: what is behind a reference would be loaded anew after each store of a vector.
 template <bool kIsCylinder>
-HWY_INLINE void CastAll(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
-                        RayCounts* counts) {
+HWY_INLINE void CastAll(const RaySolid solid, const RayWindow window, const RayLimits limits,
+                        RayCounts* kept_counts) {
+  RayCounts counts = *kept_counts;
   const int lanes = static_cast<int>(hn::Lanes(Floats()));
   for (int v = window.v_begin; v < window.v_end; ++v) {
     const RowRays rays(solid.R_OC, window.ray_y[v]);
     for (int u = window.u_begin; u < window.u_end; u += lanes) {
-      CastPixels<kIsCylinder>(solid, window, limits, rays, u, v, counts);
+      CastPixels<kIsCylinder>(solid, window, limits, rays, u, v, &counts);
     }
   }
+  *kept_counts = counts;
 }
 
 void CastWindow(const RaySolid& solid, const RayWindow& window, const RayLimits& limits,
