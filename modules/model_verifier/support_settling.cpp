@@ -12,7 +12,9 @@ namespace {
 constexpr double kSupportTolerance = 0.012;  // [m] between a bottom and the top it stands on
 constexpr double kMinFootprint = 0.05;       // share over an object that can carry the upper one
 constexpr double kFullFootprint = 0.30;      // share over an object that must carry it
+constexpr double kCentralFootprint = 0.50;   // share over an object that it cannot fall off
 constexpr double kMaxNewViolating = 0.1;     // of the explained pixels, by extending a solid down
+constexpr double kMaxNewExplained = 0.1;     // the same, of a solid that ends where it seems to
 
 // [m] half the vertical extent of a solid in any pose.
 double HalfExtent(const Solid& solid, const Plane& support) {
@@ -62,13 +64,35 @@ Solid ExtendedToSupport(const Solid& solid, const Plane& support) {
   return Longer(solid, 2, -1, BottomOf(solid, support));
 }
 
-void SupportSettler::FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper,
-                                     double bottom, const Plane& support) {
+// True for a solid whose lower end nobody saw and that was proposed to end inside what carries it:
+// further down it explains little.
+bool SupportSettler::IsSunkIn(const ObjectModel& lower, const ObjectModel& upper,
+                              const Observation& observation) {
+  const Plane& support = observation.support;
+  if (upper.evidence[2] != Evidence::kAssumed ||
+      TopOf(upper.solid, support) < TopOf(lower.solid, support) + kMinExtent) {
+    return false;
+  }
+  const auto num_explained = [&](const Solid& solid) {
+    CastRays(solid, observation, &seen_);
+    return seen_.num_explained();
+  };
+  return num_explained(ExtendedToSupport(upper.solid, support)) <
+         (1 + kMaxNewExplained) * num_explained(upper.solid);
+}
+
+void SupportSettler::FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t index,
+                                     double bottom, const Observation& observation) {
+  const ObjectModel& upper = objects[index];
   floors_.assign(1, Floor());
-  for (size_t j = 0; j < upper; ++j) {
-    const double top = TopOf(objects[j].solid, support);
-    const double share = FootprintOver(objects[upper].solid, objects[j].solid);
-    if (top > bottom + kSupportTolerance || share < kMinFootprint) continue;
+  for (size_t j = 0; j < index; ++j) {
+    const double top = TopOf(objects[j].solid, observation.support);
+    const double share = FootprintOver(upper.solid, objects[j].solid);
+    if (share < kMinFootprint) continue;
+    if (top > bottom + kSupportTolerance &&
+        !(share > kCentralFootprint && IsSunkIn(objects[j], upper, observation))) {
+      continue;
+    }
     if (share > kFullFootprint) {
       floors_.erase(std::remove_if(floors_.begin(), floors_.end(),
                                    [top](const Floor& floor) { return floor.height < top; }),
@@ -93,7 +117,7 @@ void SupportSettler::Settle(const Observation& observation, std::vector<ObjectMo
   for (size_t i = 0; i < objects->size(); ++i) {
     ObjectModel& upper = (*objects)[i];
     const double bottom = BottomOf(upper.solid, support);
-    FindFloorsBelow(*objects, i, bottom, support);
+    FindFloorsBelow(*objects, i, bottom, observation);
     if (upper.evidence[2] != Evidence::kAssumed) {
       upper.supported_by = floors_.back().supported_by;
       continue;

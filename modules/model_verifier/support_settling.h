@@ -27,9 +27,11 @@ class SupportSettler {
     int32_t supported_by = 0;  // id of the object below, 0: the support plane
   };
 
-  // Makes floors_ those below a solid. An object under much of its footprint hides all lower ones.
-  void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t upper, double bottom,
-                       const Plane& support);
+  // Makes floors_ those below the bottom of a solid, or that it is sunk in. An object under much of
+  // its footprint hides all lower ones.
+  void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t index, double bottom,
+                       const Observation& observation);
+  bool IsSunkIn(const ObjectModel& lower, const ObjectModel& upper, const Observation& observation);
 
   std::vector<Floor> floors_;  // lowest first
   std::vector<double> growth_;
