@@ -14,7 +14,7 @@ constexpr double kMinFootprint = 0.05;       // share over an object that can ca
 constexpr double kFullFootprint = 0.30;      // share over an object that must carry it
 constexpr double kCentralFootprint = 0.50;   // share over an object that it cannot fall off
 constexpr double kMaxNewViolating = 0.1;     // of the explained pixels, by extending a solid down
-constexpr double kMaxNewExplained = 0.1;     // the same, of a solid that ends where it seems to
+constexpr double kMaxNewExplained = 0.2;     // of those, by what is inside another one
 
 // [m] half the vertical extent of a solid in any pose.
 double HalfExtent(const Solid& solid, const Plane& support) {
@@ -64,21 +64,19 @@ Solid ExtendedToSupport(const Solid& solid, const Plane& support) {
   return Longer(solid, 2, -1, BottomOf(solid, support));
 }
 
-// True for a solid whose lower end nobody saw and that was proposed to end inside what carries it:
-// further down it explains little.
-bool SupportSettler::IsSunkIn(const ObjectModel& lower, const ObjectModel& upper,
+// True for a solid that was proposed to end inside what carries it: below the top of that one it
+// would explain little.
+bool SupportSettler::IsSunkIn(const Solid& lower, const Solid& upper,
                               const Observation& observation) {
   const Plane& support = observation.support;
-  if (upper.evidence[2] != Evidence::kAssumed ||
-      TopOf(upper.solid, support) < TopOf(lower.solid, support) + kMinExtent) {
-    return false;
-  }
+  const double bottom = BottomOf(upper, support), floor = TopOf(lower, support);
+  if (!IsUpright(upper, support) || TopOf(upper, support) < floor + kMinExtent) return false;
   const auto num_explained = [&](const Solid& solid) {
     CastRays(solid, observation, &seen_);
     return seen_.num_explained();
   };
-  return num_explained(ExtendedToSupport(upper.solid, support)) <
-         (1 + kMaxNewExplained) * num_explained(upper.solid);
+  return num_explained(ExtendedToSupport(upper, support)) <
+         (1 + kMaxNewExplained) * num_explained(Longer(upper, 2, -1, bottom - floor));
 }
 
 void SupportSettler::FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t index,
@@ -90,7 +88,7 @@ void SupportSettler::FindFloorsBelow(const std::vector<ObjectModel>& objects, si
     const double share = FootprintOver(upper.solid, objects[j].solid);
     if (share < kMinFootprint) continue;
     if (top > bottom + kSupportTolerance &&
-        !(share > kCentralFootprint && IsSunkIn(objects[j], upper, observation))) {
+        !(share > kCentralFootprint && IsSunkIn(objects[j].solid, upper.solid, observation))) {
       continue;
     }
     if (share > kFullFootprint) {
@@ -119,7 +117,11 @@ void SupportSettler::Settle(const Observation& observation, std::vector<ObjectMo
     const double bottom = BottomOf(upper.solid, support);
     FindFloorsBelow(*objects, i, bottom, observation);
     if (upper.evidence[2] != Evidence::kAssumed) {
-      upper.supported_by = floors_.back().supported_by;
+      const Floor& floor = floors_.back();
+      upper.supported_by = floor.supported_by;
+      if (floor.height > bottom + kSupportTolerance) {
+        upper.solid = Longer(upper.solid, 2, -1, bottom - floor.height);
+      }
       continue;
     }
     CastRays(upper.solid, observation, &seen_);

@@ -13,8 +13,9 @@ namespace declutter {
 class SupportSettler {
  public:
   // Extends solids whose lower end nobody saw (evidence[2] is kAssumed) down to what they stand on,
-  // and sets what each stands on: the object below, or the support plane. Sorts the objects by the
-  // height of their tops; supported_by counts from 1 in that order.
+  // lifts the ends of those that were proposed to end inside it, and sets what each stands on: the
+  // object below, or the support plane. Sorts the objects by the height of their tops; supported_by
+  // counts from 1 in that order.
   void Settle(const Observation& observation, std::vector<ObjectModel>* objects);
 
   // [m] by which the last call has extended each object, in their order.
@@ -31,7 +32,7 @@ class SupportSettler {
   // its footprint hides all lower ones.
   void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t index, double bottom,
                        const Observation& observation);
-  bool IsSunkIn(const ObjectModel& lower, const ObjectModel& upper, const Observation& observation);
+  bool IsSunkIn(const Solid& lower, const Solid& upper, const Observation& observation);
 
   std::vector<Floor> floors_;  // lowest first
   std::vector<double> growth_;

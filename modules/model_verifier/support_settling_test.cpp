@@ -54,14 +54,18 @@ TEST_F(SupportSettlerTest, PutsASolidOnWhatIsBelow) {
 
 TEST_F(SupportSettlerTest, LiftsASolidThatWasProposedToEndInsideWhatCarriesIt) {
   Look("y_m: 0.7 on: 0");
-  EXPECT_NEAR(SettledBottom(0.03), kTinHeight, 1e-9);
-  EXPECT_EQ(supported_by_, 1);
+  for (const Evidence evidence : {Evidence::kAssumed, Evidence::kObserved}) {
+    carton_.evidence[2] = evidence;
+    EXPECT_NEAR(SettledBottom(0.03), kTinHeight, 1e-9);
+    EXPECT_EQ(supported_by_, 1);
+  }
 }
 
 TEST_F(SupportSettlerTest, LeavesALowerEndThatWasSeen) {
   Look("y_m: 0.7 on: 0");
   carton_.evidence[2] = Evidence::kObserved;
-  EXPECT_NEAR(SettledBottom(0.03), kTinHeight - 0.03, 1e-9);
+  EXPECT_NEAR(SettledBottom(-0.03), kTinHeight + 0.03, 1e-9);
+  EXPECT_EQ(supported_by_, 1);
 }
 
 TEST_F(SupportSettlerTest, ExtendsToTheTableWhatShowsMoreOfItselfFurtherDown) {
