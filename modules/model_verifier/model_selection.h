@@ -81,6 +81,7 @@ class ModelSelection {
   bool IsWorthTrying(size_t index);
   bool ReplaceWithRest(size_t index, const Input& input);
   const std::vector<size_t>& BlockersOf(size_t index);
+  bool AreBlockersAmong(std::initializer_list<size_t> indices, size_t index);
   const std::vector<size_t>& Only(std::initializer_list<size_t> indices);
   bool Replace(const std::vector<size_t>& old, std::optional<size_t> first, const Input& input,
                double share_of_old = 1);
@@ -90,6 +91,7 @@ class ModelSelection {
   bool CutLower(size_t old, const Input& input);
   bool Reshape(size_t old, const Input& input);
   bool Unite(size_t old, const Input& input);
+  bool JoinColumn(size_t old, const Input& input);
   std::optional<Solid> Through(const Solid& solid, const Candidate& candidate, const Input& input);
   std::optional<size_t> AddOver(const std::vector<uint8_t>& is_marked, const PixelWindow& window,
                                 std::optional<Shape> but_shape, const Observation& fitted,

@@ -3,6 +3,7 @@
 
 #include "modules/geometry/plane.h"
 #include "modules/geometry/sensor_noise.h"
+#include "modules/model_verifier/column.h"
 #include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/free_space.h"
 #include "modules/model_verifier/hidden_middle.h"
@@ -201,15 +202,44 @@ bool ModelSelection::Unite(size_t old, const Input& input) {
     const double share = kMinShare * (1 - whole.misfit_share);
     const double max_violating = larger.evidence.num_violating + evidence.num_violating +
                                  kMaxNewViolating * evidence.num_explained();
-    const auto is_part = [&](size_t i) { return i == old || i == part; };
-    const auto& blockers = BlockersOf(*added);
-    if (whole.evidence.num_violating <= max_violating &&
-        std::all_of(blockers.begin(), blockers.end(), is_part) &&
+    if (whole.evidence.num_violating <= max_violating && AreBlockersAmong({old, part}, *added) &&
         TotalSeenThrough({*added}, input) <
             kMaxSeenThrough + TotalSeenThrough({old, part}, input) &&
         Replace(Only({old, part}), added, input, share)) {
       // What is less than both together is not to be divided again.
       candidates_[*added].gain_factor = 1 / share;
+      candidates_[old].is_out = candidates_[part].is_out = true;
+      return true;
+    }
+  }
+  return false;
+}
+
+// Gives the place of a selected candidate and of one below that looks like its lower part to one
+// that reaches down to the end of that. As a carton bulges, both may explain somewhat more. True
+// when that was done.
+bool ModelSelection::JoinColumn(size_t old, const Input& input) {
+  constexpr double kMinShare = 0.8;  // of what both explain
+  const Plane& support = input.observation.support;
+  const Hypothesis& upper = candidates_[old].hypothesis;
+  if (!IsUpright(upper.solid, support) || upper.evidence[2] != Evidence::kAssumed) return false;
+  const double top = TopOf(upper.solid, support), bottom = BottomOf(upper.solid, support);
+  for (const size_t part : order_) {
+    const Candidate& lower = candidates_[part];
+    const Solid& solid = lower.hypothesis.solid;
+    if (part == old || !lower.is_selected || !IsUpright(solid, support) ||
+        TopOf(solid, support) > top - kMinExtent || BottomOf(solid, support) > bottom ||
+        !HaveOneCrossSection(solid, upper.solid)) {
+      continue;
+    }
+    Hypothesis hypothesis = upper;
+    hypothesis.solid = Longer(upper.solid, 2, -1, bottom - BottomOf(solid, support));
+    hypothesis.evidence[2] = lower.hypothesis.evidence[2];
+    const auto added = AddRefined(hypothesis, 0, input);
+    if (!added || !AreBlockersAmong({old, part}, *added)) continue;
+    if (Replace(Only({old, part}), added, input, kMinShare)) {
+      // What is less than both together is not to be divided again.
+      candidates_[*added].gain_factor = 1 / kMinShare;
       candidates_[old].is_out = candidates_[part].is_out = true;
       return true;
     }

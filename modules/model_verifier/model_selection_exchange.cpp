@@ -21,9 +21,10 @@ bool ModelSelection::Exchange(const Input& input) {
   }
   order_ = selected_;
   for (const size_t old : order_) {
-    has_changed |= candidates_[old].is_selected &&
-                   (SplitByArea(old, input) || SplitByCandidate(old, input) ||
-                    CutLower(old, input) || Reshape(old, input) || Unite(old, input));
+    has_changed |=
+        candidates_[old].is_selected &&
+        (SplitByArea(old, input) || SplitByCandidate(old, input) || CutLower(old, input) ||
+         Reshape(old, input) || Unite(old, input) || JoinColumn(old, input));
   }
   return has_changed;
 }
@@ -92,6 +93,13 @@ const std::vector<size_t>& ModelSelection::BlockersOf(size_t index) {
     if (AreRivals(index, i)) blockers_.push_back(i);
   }
   return blockers_;
+}
+
+bool ModelSelection::AreBlockersAmong(std::initializer_list<size_t> indices, size_t index) {
+  const std::vector<size_t>& blockers = BlockersOf(index);
+  return std::all_of(blockers.begin(), blockers.end(), [&](size_t i) {
+    return std::find(indices.begin(), indices.end(), i) != indices.end();
+  });
 }
 
 const std::vector<size_t>& ModelSelection::Only(std::initializer_list<size_t> indices) {

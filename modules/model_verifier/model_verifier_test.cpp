@@ -536,5 +536,19 @@ TEST(ClimbCylinder, FindsACylinderByItsTopWhereItsSideIsHidden) {
   EXPECT_EQ(evidence.Balance(), CastRays(solid, observation).Balance());
 }
 
+TEST(ModelVerifier, JoinsPartsOfOneColumn) {
+  // Nobody proposes the whole.
+  for (const char* text :
+       {kBox, "object { cylinder { radius_m: 0.04 height_m: 0.13 } y_m: 0.65 }"}) {
+    const RenderedScene scene = RenderText(text);
+    const Solid& whole = scene.objects[0].solid;
+    const Hypothesis upper = ProposalOfUpperPart(Changed(whole, {0, 0, 0.03}, {0, 0, -0.06}));
+    const Hypothesis lower = Proposal(Changed(whole, {0, 0, -0.035}, {0, 0, -0.07}));
+    const ObjectList list = Verify(scene, {upper, lower});
+    ASSERT_THAT(list.objects, SizeIs(1)) << text;
+    EXPECT_NEAR(list.objects[0].solid.height(), 0.13, 0.003) << text;
+  }
+}
+
 }  // namespace
 }  // namespace declutter
