@@ -46,8 +46,21 @@ TEST(AreFlush, NotOfCylinders) {
 }
 
 TEST(HaveOneCrossSection, ForgivesBlurredEdges) {
-  EXPECT_TRUE(HaveOneCrossSection(kLower, BoxAt({0.303, 0.4, 0.85}, {0.075, 0.125, 0.1})));
-  EXPECT_FALSE(HaveOneCrossSection(kLower, BoxAt({0.3, 0.4, 0.85}, {0.075, 0.135, 0.1})));
+  EXPECT_TRUE(HaveOneCrossSection(kLower, BoxAt({0.303, 0.4, 0.85}, {0.125, 0.075, 0.1})));
+  EXPECT_TRUE(HaveOneCrossSection(kLower, BoxAt({0.303, 0.4, 0.85}, {0.075, 0.125, 0.1}, M_PI_2)));
+  EXPECT_FALSE(HaveOneCrossSection(kLower, BoxAt({0.3, 0.4, 0.85}, {0.135, 0.075, 0.1})));
+  EXPECT_FALSE(HaveOneCrossSection(kLower, BoxAt({0.311, 0.4, 0.85}, {0.12, 0.08, 0.1})));
+}
+
+TEST(HaveOneCrossSection, NotWhenOneIsTurned) {
+  EXPECT_FALSE(HaveOneCrossSection(kLower, BoxAt({0.3, 0.4, 0.85}, {0.12, 0.08, 0.1}, M_PI_2)));
+  EXPECT_FALSE(HaveOneCrossSection(kLower, BoxAt({0.3, 0.4, 0.85}, {0.12, 0.08, 0.1}, 0.2)));
+  Solid cylinder = kLower;
+  cylinder.shape = Shape::kCylinder;
+  cylinder.size.y() = cylinder.size.x();
+  Solid turned = cylinder;
+  turned.X_CO = turned.X_CO * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ());
+  EXPECT_TRUE(HaveOneCrossSection(cylinder, turned));
 }
 
 TEST(IsTopSeen, ByPointsInsideItsEdges) {

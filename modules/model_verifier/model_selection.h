@@ -26,7 +26,7 @@ struct Candidate {
   bool is_gain_known = false;
   bool is_reshaped = false;   // the other shape was tried
   int num_blockers = 0;       // selected candidates in its space
-  double gain_factor = 1;     // of what others must explain to take its place, see Unite
+  double gain_factor = 1;     // of what others must explain to take its place, see ReplaceBoth
   double misfit_share = 0;    // of its pixels, that count against it as it looks like another shape
   double gain = 0;            // [px] explained by it alone, less what speaks against it
   double selection_gain = 0;  // [px] the same when it was chosen
@@ -81,7 +81,6 @@ class ModelSelection {
   bool IsWorthTrying(size_t index);
   bool ReplaceWithRest(size_t index, const Input& input);
   const std::vector<size_t>& BlockersOf(size_t index);
-  bool AreBlockersAmong(std::initializer_list<size_t> indices, size_t index);
   const std::vector<size_t>& Only(std::initializer_list<size_t> indices);
   bool Replace(const std::vector<size_t>& old, std::optional<size_t> first, const Input& input,
                double share_of_old = 1);
@@ -90,9 +89,6 @@ class ModelSelection {
   bool SplitByArea(size_t old, const Input& input);
   bool CutLower(size_t old, const Input& input);
   bool Reshape(size_t old, const Input& input);
-  bool Unite(size_t old, const Input& input);
-  bool JoinColumn(size_t old, const Input& input);
-  std::optional<Solid> Through(const Solid& solid, const Candidate& candidate, const Input& input);
   std::optional<size_t> AddOver(const std::vector<uint8_t>& is_marked, const PixelWindow& window,
                                 std::optional<Shape> but_shape, const Observation& fitted,
                                 const Input& input);
@@ -100,6 +96,14 @@ class ModelSelection {
   void FindLowerParts(size_t old, double step);
   bool ReplaceByParts(const std::vector<Solid>& parts, size_t old, double share_of_old,
                       const Input& input);
+  // model_selection_union.cpp
+  bool Unite(size_t old, const Input& input);
+  bool JoinColumn(size_t old, const Input& input);
+  std::optional<Solid> Through(const Solid& solid, const Candidate& candidate, const Input& input);
+  std::optional<size_t> AddForBoth(size_t first, size_t second, const Hypothesis& whole,
+                                   double max_new_violating, const Input& input);
+  bool ReplaceBoth(size_t first, size_t second, size_t whole, double share_of_both,
+                   const Input& input);
   // model_selection_division.cpp
   bool SplitByCandidate(size_t old, const Input& input);
   void FindPartsInside(size_t old);

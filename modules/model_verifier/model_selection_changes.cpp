@@ -3,10 +3,7 @@
 
 #include "modules/geometry/plane.h"
 #include "modules/geometry/sensor_noise.h"
-#include "modules/model_verifier/column.h"
 #include "modules/model_verifier/extents.h"
-#include "modules/model_verifier/free_space.h"
-#include "modules/model_verifier/hidden_middle.h"
 #include "modules/model_verifier/model_selection.h"
 #include "modules/model_verifier/support_settling.h"
 #include "modules/model_verifier/systematic_misfit.h"
@@ -153,98 +150,6 @@ bool ModelSelection::ReplaceByParts(const std::vector<Solid>& parts, size_t old,
   }
   return first && candidates_[*first].num_blockers <= 1 &&
          Replace(Only({old}), first, input, share_of_old);
-}
-
-// A solid that reaches from the far end of one to that of a candidate of its shape.
-std::optional<Solid> ModelSelection::Through(const Solid& solid, const Candidate& candidate,
-                                             const Input& input) {
-  if (solid.shape == Shape::kCylinder) return CylinderThrough(solid, candidate.hypothesis.solid);
-  std::vector<Eigen::Vector3d>& points_O = input.buffers->explained_O;
-  FindExplainedPoints(solid, candidate.evidence, input.observation, &points_O);
-  return ProlongedOver(points_O, solid);
-}
-
-// Gives the place of two selected candidates to one that goes on behind what hides its middle. As a
-// sensor bends it, both may explain somewhat more, if little of free space is inside. True when
-// that was done.
-bool ModelSelection::Unite(size_t old, const Input& input) {
-  constexpr double kMinShare = 0.8;         // of what both explain
-  constexpr double kMaxNewViolating = 0.5;  // of what the smaller one explains
-  // Steps [m] between parts of one top: what noise makes, what a sensor that bends it adds over the
-  // distance between their middles, and at most what a large carton has.
-  constexpr double kNoiseStep = 0.0025;
-  constexpr double kStepPerDistance = 0.02;
-  constexpr double kMaxTopStep = 0.006;
-  const Plane& support = input.observation.support;
-  const Candidate& larger = candidates_[old];
-  const Solid& solid = larger.hypothesis.solid;
-  if (IsUpright(solid, support) != (solid.shape == Shape::kBox)) return false;
-  for (const size_t part : order_) {
-    const Candidate& smaller = candidates_[part];
-    const RayEvidence& evidence = smaller.evidence;
-    if (part == old || !smaller.is_selected || smaller.hypothesis.solid.shape != solid.shape ||
-        evidence.num_explained() > larger.evidence.num_explained()) {
-      continue;
-    }
-    const Solid& other = smaller.hypothesis.solid;
-    const double distance = (other.X_CO.translation() - solid.X_CO.translation()).norm();
-    if (std::abs(TopOf(other, support) - TopOf(solid, support)) >
-        std::min(kMaxTopStep, kNoiseStep + kStepPerDistance * distance)) {
-      continue;
-    }
-    const auto longer = Through(solid, smaller, input);
-    if (!longer) continue;
-    Hypothesis hypothesis = larger.hypothesis;
-    hypothesis.solid = *longer;
-    const auto added = AddRefined(hypothesis, 0, input);
-    if (!added) continue;
-    const Candidate& whole = candidates_[*added];
-    const double share = kMinShare * (1 - whole.misfit_share);
-    const double max_violating = larger.evidence.num_violating + evidence.num_violating +
-                                 kMaxNewViolating * evidence.num_explained();
-    if (whole.evidence.num_violating <= max_violating && AreBlockersAmong({old, part}, *added) &&
-        TotalSeenThrough({*added}, input) <
-            kMaxSeenThrough + TotalSeenThrough({old, part}, input) &&
-        Replace(Only({old, part}), added, input, share)) {
-      // What is less than both together is not to be divided again.
-      candidates_[*added].gain_factor = 1 / share;
-      candidates_[old].is_out = candidates_[part].is_out = true;
-      return true;
-    }
-  }
-  return false;
-}
-
-// Gives the place of a selected candidate and of one below that looks like its lower part to one
-// that reaches down to the end of that. As a carton bulges, both may explain somewhat more. True
-// when that was done.
-bool ModelSelection::JoinColumn(size_t old, const Input& input) {
-  constexpr double kMinShare = 0.8;  // of what both explain
-  const Plane& support = input.observation.support;
-  const Hypothesis& upper = candidates_[old].hypothesis;
-  if (!IsUpright(upper.solid, support) || upper.evidence[2] != Evidence::kAssumed) return false;
-  const double top = TopOf(upper.solid, support), bottom = BottomOf(upper.solid, support);
-  for (const size_t part : order_) {
-    const Candidate& lower = candidates_[part];
-    const Solid& solid = lower.hypothesis.solid;
-    if (part == old || !lower.is_selected || !IsUpright(solid, support) ||
-        TopOf(solid, support) > top - kMinExtent || BottomOf(solid, support) > bottom ||
-        !HaveOneCrossSection(solid, upper.solid)) {
-      continue;
-    }
-    Hypothesis hypothesis = upper;
-    hypothesis.solid = Longer(upper.solid, 2, -1, bottom - BottomOf(solid, support));
-    hypothesis.evidence[2] = lower.hypothesis.evidence[2];
-    const auto added = AddRefined(hypothesis, 0, input);
-    if (!added || !AreBlockersAmong({old, part}, *added)) continue;
-    if (Replace(Only({old, part}), added, input, kMinShare)) {
-      // What is less than both together is not to be divided again.
-      candidates_[*added].gain_factor = 1 / kMinShare;
-      candidates_[old].is_out = candidates_[part].is_out = true;
-      return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace declutter

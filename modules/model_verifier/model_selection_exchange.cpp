@@ -8,8 +8,8 @@ namespace declutter {
 
 // Gives the place of selected candidates to those that explain more when all others stay: some of
 // the pixels that they were selected for, later ones explain as well, two may fill the place of one
-// better, and one that explains much may be kept out by some that explain little. True when one
-// changed.
+// better, or one that of two, and one that explains much may be kept out by some that explain
+// little. True when one changed.
 bool ModelSelection::Exchange(const Input& input) {
   bool has_changed = false;
   order_ = selected_;
@@ -93,13 +93,6 @@ const std::vector<size_t>& ModelSelection::BlockersOf(size_t index) {
     if (AreRivals(index, i)) blockers_.push_back(i);
   }
   return blockers_;
-}
-
-bool ModelSelection::AreBlockersAmong(std::initializer_list<size_t> indices, size_t index) {
-  const std::vector<size_t>& blockers = BlockersOf(index);
-  return std::all_of(blockers.begin(), blockers.end(), [&](size_t i) {
-    return std::find(indices.begin(), indices.end(), i) != indices.end();
-  });
 }
 
 const std::vector<size_t>& ModelSelection::Only(std::initializer_list<size_t> indices) {

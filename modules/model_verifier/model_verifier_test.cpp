@@ -254,6 +254,36 @@ TEST(ModelVerifier, LeavesNeighboursOfTwoHeightsApartBehindAnObstacle) {
   EXPECT_THAT(Verify(scene, hypotheses).objects, SizeIs(3));
 }
 
+TEST(ModelVerifier, JoinsPartsOfOneColumn) {
+  // Nobody proposes the whole.
+  for (const char* text :
+       {kBox, "object { cylinder { radius_m: 0.04 height_m: 0.13 } y_m: 0.65 }"}) {
+    const RenderedScene scene = RenderText(text);
+    const Solid& whole = scene.objects[0].solid;
+    const Hypothesis upper = ProposalOfUpperPart(Changed(whole, {0, 0, 0.03}, {0, 0, -0.06}));
+    const Hypothesis lower = Proposal(Changed(whole, {0, 0, -0.035}, {0, 0, -0.07}));
+    const ObjectList list = Verify(scene, {upper, lower});
+    ASSERT_THAT(list.objects, SizeIs(1)) << text;
+    EXPECT_NEAR(list.objects[0].solid.height(), 0.13, 0.003) << text;
+  }
+}
+
+TEST(ModelVerifier, LeavesWhatStandsOnOneOfAnotherOutline) {
+  // Turned, across, and set back.
+  for (const auto& [size, place] :
+       {std::pair("size_x_m: 0.08 size_y_m: 0.08", "y_m: 0.65 yaw_rad: 0.785"),
+        std::pair("size_x_m: 0.08 size_y_m: 0.08", "y_m: 0.65 yaw_rad: 0.35"),
+        std::pair("size_x_m: 0.14 size_y_m: 0.11", "y_m: 0.65 yaw_rad: 1.5708"),
+        std::pair("size_x_m: 0.14 size_y_m: 0.11", "y_m: 0.659")}) {
+    const std::string box = "object { box { " + std::string(size);
+    const RenderedScene scene = RenderText(box + " size_z_m: 0.04 } y_m: 0.65 }" + box +
+                                           " size_z_m: 0.12 } on: 0 " + place + " }");
+    const Hypothesis upper = ProposalOfUpperPart(scene.objects[1].solid);
+    EXPECT_THAT(Verify(scene, {upper, Proposal(scene.objects[0].solid)}).objects, SizeIs(2))
+        << size << place;
+  }
+}
+
 TEST(ModelVerifier, DividesABoxThatIsSeenThrough) {
   // Of one height, so that one patch holds the tops of both.
   const RenderedScene scene = RenderText(
@@ -534,20 +564,6 @@ TEST(ClimbCylinder, FindsACylinderByItsTopWhereItsSideIsHidden) {
   EXPECT_NEAR(solid.radius(), truth.radius(), 0.002);
   EXPECT_LT((solid.X_CO.translation() - truth.X_CO.translation()).norm(), 0.003);
   EXPECT_EQ(evidence.Balance(), CastRays(solid, observation).Balance());
-}
-
-TEST(ModelVerifier, JoinsPartsOfOneColumn) {
-  // Nobody proposes the whole.
-  for (const char* text :
-       {kBox, "object { cylinder { radius_m: 0.04 height_m: 0.13 } y_m: 0.65 }"}) {
-    const RenderedScene scene = RenderText(text);
-    const Solid& whole = scene.objects[0].solid;
-    const Hypothesis upper = ProposalOfUpperPart(Changed(whole, {0, 0, 0.03}, {0, 0, -0.06}));
-    const Hypothesis lower = Proposal(Changed(whole, {0, 0, -0.035}, {0, 0, -0.07}));
-    const ObjectList list = Verify(scene, {upper, lower});
-    ASSERT_THAT(list.objects, SizeIs(1)) << text;
-    EXPECT_NEAR(list.objects[0].solid.height(), 0.13, 0.003) << text;
-  }
 }
 
 }  // namespace

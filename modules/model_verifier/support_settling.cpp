@@ -14,7 +14,7 @@ constexpr double kMinFootprint = 0.05;       // share over an object that can ca
 constexpr double kFullFootprint = 0.30;      // share over an object that must carry it
 constexpr double kCentralFootprint = 0.50;   // share over an object that it cannot fall off
 constexpr double kMaxNewViolating = 0.1;     // of the explained pixels, by extending a solid down
-constexpr double kMaxNewExplained = 0.2;     // of those, by what is inside another one
+constexpr double kMaxNewExplained = 0.2;     // of those, by the part that is inside another solid
 
 // [m] half the vertical extent of a solid in any pose.
 double HalfExtent(const Solid& solid, const Plane& support) {
@@ -65,7 +65,7 @@ Solid ExtendedToSupport(const Solid& solid, const Plane& support) {
 }
 
 // True for a solid that was proposed to end inside what carries it: below the top of that one it
-// would explain little.
+// would explain little. Not where both have one outline, and so one side.
 bool SupportSettler::IsSunkIn(const Solid& lower, const Solid& upper,
                               const Observation& observation) {
   const Plane& support = observation.support;
@@ -120,7 +120,8 @@ void SupportSettler::Settle(const Observation& observation, std::vector<ObjectMo
       const Floor& floor = floors_.back();
       upper.supported_by = floor.supported_by;
       if (floor.height > bottom + kSupportTolerance) {
-        upper.solid = Longer(upper.solid, 2, -1, bottom - floor.height);
+        growth_[i] = bottom - floor.height;
+        upper.solid = Longer(upper.solid, 2, -1, growth_[i]);
       }
       continue;
     }

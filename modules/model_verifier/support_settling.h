@@ -13,12 +13,12 @@ namespace declutter {
 class SupportSettler {
  public:
   // Extends solids whose lower end nobody saw (evidence[2] is kAssumed) down to what they stand on,
-  // lifts the ends of those that were proposed to end inside it, and sets what each stands on: the
-  // object below, or the support plane. Sorts the objects by the height of their tops; supported_by
-  // counts from 1 in that order.
+  // lifts any end that was proposed to be inside it, and sets what each stands on: the object
+  // below, or the support plane. Sorts the objects by the height of their tops; supported_by counts
+  // from 1 in that order.
   void Settle(const Observation& observation, std::vector<ObjectModel>* objects);
 
-  // [m] by which the last call has extended each object, in their order.
+  // [m] by which the last call has extended each object, in their order; less than 0: lifted.
   const std::vector<double>& growth() const { return growth_; }
 
  private:

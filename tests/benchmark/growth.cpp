@@ -97,7 +97,7 @@ Growth GrowthWithImageSize() {
 Growth GrowthWithIterations() {
   auto frames = std::make_shared<std::vector<BenchFrame>>(RenderedFrames(1));
   Growth growth{"I", {}, {}, frames};
-  for (const int num_iterations : {5, 15, 25, 50, 75, 100, 125, 150}) {
+  for (const int num_iterations : {5, 10, 15, 25, 50, 75, 100, 125, 150}) {
     AddRow(std::to_string(num_iterations), 0, num_iterations, &growth);
   }
   return growth;

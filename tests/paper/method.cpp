@@ -13,7 +13,8 @@
 namespace declutter::experiments {
 namespace {
 
-constexpr int64_t kUtime = 33333;  // [us] part of the seed: the same for every frame
+constexpr int kNumIterations = 25;  // I of section 4
+constexpr int64_t kUtime = 33333;   // [us] part of the seed: the same for every frame
 
 template <typename Value>
 Value ThroughItsMessage(const Value& value) {
@@ -63,7 +64,7 @@ Result RunMethod(const Method& method, const PreparedFrame& frame) {
 }
 
 Method VotingAlone() {
-  Method method;
+  Method method = Voting();
   method.name = "votes";
   method.verifier.set_refine(false);
   return method;
@@ -72,6 +73,7 @@ Method VotingAlone() {
 Method Voting() {
   Method method;
   method.name = "votes, refined";
+  method.segmenter.set_num_iterations(kNumIterations);
   return method;
 }
 
@@ -80,7 +82,7 @@ Method SingleShot() {
   method.name = "single-shot RANSAC";
   method.detect = FitSidesOnce;
   HoughSegmenterConfig& config = method.segmenter;
-  config.set_num_samples(config.num_samples() * config.num_iterations());
+  config.set_num_samples(config.num_samples() * kNumIterations);
   config.set_filter_runs(false);
   config.set_filter_arcs(false);
   config.set_filter_heights(false);
