@@ -8,8 +8,7 @@
 
 #include "modules/model_verifier/face_end_kernels.h"
 #include "modules/model_verifier/projection.h"
-#include "modules/scene_renderer/scene_renderer.h"
-#include "modules/scene_renderer/scene_text.h"
+#include "modules/model_verifier/test_scene.h"
 
 namespace declutter {
 namespace {
@@ -94,12 +93,10 @@ TEST(ShiftOfEnd, IsWhereTheOtherObjectBegins) {
 }
 
 TEST(AddToProfile, GivesTheSameWithEveryInstructionSet) {
-  const RenderedScene scene = Render(ParseScene(kBox, "scene"), 1);
-  ObservedImage observed;
-  observed.Set(scene.depth, scene.table);
-  const Solid& box = scene.objects[0].solid;
-  const RayWindow window = WindowOf(box, 0.02, observed.every_pixel());
-  const RaySolid solid = AsRaySolid(box, scene.table);
+  const ObservedScene seen(kBox);
+  const Solid& box = seen.scene.objects[0].solid;
+  const RayWindow window = WindowOf(box, 0.02, seen.observed.every_pixel());
+  const RaySolid solid = AsRaySolid(box, seen.scene.table);
   constexpr FaceLimits kLimits = {0.005f, 0.006f, 0.05f, 0.7f, 0.004f, 0.0005f, -0.015f};
   EndProfile first;
   for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {

@@ -3,33 +3,24 @@
 #include <gtest/gtest.h>
 
 #include "modules/model_verifier/extents.h"
-#include "modules/scene_renderer/scene_renderer.h"
-#include "modules/scene_renderer/scene_text.h"
+#include "modules/model_verifier/test_scene.h"
 
 namespace declutter {
 namespace {
 
 class SeenThrough : public testing::Test {
  protected:
-  SeenThrough()
-      : scene_(Render(
-            ParseScene("object { box { size_x_m: 0.18 size_y_m: 0.08 size_z_m: 0.13 } y_m: 0.65 }",
-                       "scene"),
-            1)) {
-    observed_.Set(scene_.depth, scene_.table);
-  }
-
   int Num(const Solid& solid) {
     RayEvidence buffer;
-    return NumSeenThrough(solid, observed_.every_second_pixel(), &buffer);
+    return NumSeenThrough(solid, seen_.observed.every_second_pixel(), &buffer);
   }
 
-  RenderedScene scene_;
-  ObservedImage observed_;
+  const ObservedScene seen_{
+      "object { box { size_x_m: 0.18 size_y_m: 0.08 size_z_m: 0.13 } y_m: 0.65 }"};
 };
 
 TEST_F(SeenThrough, IsNoBoxThatIsSomewhatTooLarge) {
-  const Solid& box = scene_.objects[0].solid;
+  const Solid& box = seen_.scene.objects[0].solid;
   EXPECT_EQ(Num(box), 0);
   Solid bulging = Longer(box, 2, 1, 0.004);
   bulging.size.head<2>().array() += 0.008;
@@ -37,13 +28,13 @@ TEST_F(SeenThrough, IsNoBoxThatIsSomewhatTooLarge) {
 }
 
 TEST_F(SeenThrough, IsABoxThatReachesIntoFreeSpace) {
-  EXPECT_GT(Num(Longer(scene_.objects[0].solid, 0, 1, 0.03)), kMaxSeenThrough);
-  EXPECT_GT(Num(Longer(scene_.objects[0].solid, 2, 1, 0.03)), kMaxSeenThrough);
+  EXPECT_GT(Num(Longer(seen_.scene.objects[0].solid, 0, 1, 0.03)), kMaxSeenThrough);
+  EXPECT_GT(Num(Longer(seen_.scene.objects[0].solid, 2, 1, 0.03)), kMaxSeenThrough);
 }
 
 TEST_F(SeenThrough, IsNothingThinnerThanWhatIsLeftOut) {
   // In free space, beside the box.
-  Solid thin = Longer(scene_.objects[0].solid, 0, 1, 0.2);
+  Solid thin = Longer(seen_.scene.objects[0].solid, 0, 1, 0.2);
   thin.X_CO.translation() += 0.1 * thin.X_CO.linear().col(0);
   EXPECT_GT(Num(thin), kMaxSeenThrough);
   thin.size.y() = 0.009;

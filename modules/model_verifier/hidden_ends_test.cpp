@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "modules/model_verifier/extents.h"
-#include "modules/scene_renderer/scene_renderer.h"
-#include "modules/scene_renderer/scene_text.h"
+#include "modules/model_verifier/test_scene.h"
 
 namespace declutter {
 namespace {
@@ -12,24 +11,18 @@ namespace {
 // Of a box, 0.2 m long, something higher in front hides the right half.
 class HiddenEnds : public testing::Test {
  protected:
-  HiddenEnds()
-      : scene_(Render(
-            ParseScene("object { box { size_x_m: 0.2 size_y_m: 0.06 size_z_m: 0.12 } y_m: 0.75 }"
-                       "object { box { size_x_m: 0.1 size_y_m: 0.06 size_z_m: 0.3 } x_m: 0.07 "
-                       "y_m: 0.62 }",
-                       "scene"),
-            1)) {
-    observed_.Set(scene_.depth, scene_.table);
+  HiddenEnds() {
     for (auto& ends : ends_) ends = {EndEvidence::kEdge, EndEvidence::kEdge};
     ends_[0][1] = EndEvidence::kAssumed;
   }
 
   // [m] by which the right end of the seen half is moved.
   double GrowthBesides(const std::vector<Solid>& others) {
-    const Solid seen = Longer(scene_.objects[0].solid, 0, 1, -0.1);
+    const Solid seen = Longer(seen_.scene.objects[0].solid, 0, 1, -0.1);
     Solid box = seen;
     RayEvidence buffer;
-    CompleteHiddenEnds(ends_, others, observed_.every_second_pixel(), &box, &variances_, &buffer);
+    CompleteHiddenEnds(ends_, others, seen_.observed.every_second_pixel(), &box, &variances_,
+                       &buffer);
     EXPECT_EQ(box.size.tail<2>(), seen.size.tail<2>());
     const Eigen::Vector3d shift_O =
         seen.X_CO.linear().transpose() * (box.X_CO.translation() - seen.X_CO.translation());
@@ -38,14 +31,15 @@ class HiddenEnds : public testing::Test {
     return growth;
   }
 
-  RenderedScene scene_;
-  ObservedImage observed_;
+  const ObservedScene seen_{
+      "object { box { size_x_m: 0.2 size_y_m: 0.06 size_z_m: 0.12 } y_m: 0.75 }"
+      "object { box { size_x_m: 0.1 size_y_m: 0.06 size_z_m: 0.3 } x_m: 0.07 y_m: 0.62 }"};
   SolidEnds ends_{};
   EndVariances variances_{};
 };
 
 TEST_F(HiddenEnds, LieBehindWhatHidesThem) {
-  const double growth = GrowthBesides({scene_.objects[1].solid});
+  const double growth = GrowthBesides({seen_.scene.objects[1].solid});
   EXPECT_GT(growth, 0.01);
   EXPECT_LT(growth, 0.02);
   EXPECT_GT(variances_[0][1], 0.01 * 0.01);
@@ -53,7 +47,7 @@ TEST_F(HiddenEnds, LieBehindWhatHidesThem) {
 }
 
 TEST_F(HiddenEnds, DoNotReachIntoAnother) {
-  Solid another = scene_.objects[0].solid;
+  Solid another = seen_.scene.objects[0].solid;
   another.size.x() = 0.05;
   another.X_CO.translation() += another.X_CO.linear() * Eigen::Vector3d(0.035, 0, 0);
   EXPECT_LT(GrowthBesides({another}), 0.008);  // it begins 10 mm behind the seen end
@@ -61,7 +55,7 @@ TEST_F(HiddenEnds, DoNotReachIntoAnother) {
 }
 
 TEST_F(HiddenEnds, AreCutWhereTheyReachIntoAnother) {
-  Solid another = scene_.objects[0].solid;
+  Solid another = seen_.scene.objects[0].solid;
   another.size.x() = 0.05;
   another.X_CO.translation() += another.X_CO.linear() * Eigen::Vector3d(0.01, 0, 0);
   EXPECT_NEAR(GrowthBesides({another}), -0.015, 0.005);
@@ -73,7 +67,7 @@ TEST_F(HiddenEnds, AreCutWhereTheyReachIntoAnother) {
 
 TEST_F(HiddenEnds, DoNotReachUnderTheTable) {
   // On its side, so that its x axis is upright, and taken to lean.
-  Solid box = scene_.objects[0].solid;
+  Solid box = seen_.scene.objects[0].solid;
   const double half_height = 0.5 * box.size.z();
   box.X_CO =
       box.X_CO * Eigen::AngleAxisd(0.5 * static_cast<double>(EIGEN_PI), Eigen::Vector3d::UnitY());
@@ -84,18 +78,18 @@ TEST_F(HiddenEnds, DoNotReachUnderTheTable) {
     ends_[0] = {EndEvidence::kEdge, EndEvidence::kEdge};
     ends_[0][side] = EndEvidence::kAssumed;
     box = before;
-    CompleteHiddenEnds(ends_, {}, observed_.every_second_pixel(), &box, &variances_, &buffer);
+    CompleteHiddenEnds(ends_, {}, seen_.observed.every_second_pixel(), &box, &variances_, &buffer);
     EXPECT_LT(box.size.x(), before.size.x() + 0.006) << side;
   }
 }
 
 TEST_F(HiddenEnds, DoNotReachIntoFreeSpace) {
   // The end of the whole box: what follows is seen.
-  Solid box = scene_.objects[0].solid;
+  Solid box = seen_.scene.objects[0].solid;
   const double before = box.size.x();
   ends_[0] = {EndEvidence::kAssumed, EndEvidence::kEdge};
   RayEvidence buffer;
-  CompleteHiddenEnds(ends_, {}, observed_.every_second_pixel(), &box, &variances_, &buffer);
+  CompleteHiddenEnds(ends_, {}, seen_.observed.every_second_pixel(), &box, &variances_, &buffer);
   EXPECT_LT(box.size.x(), before + 0.006);
 }
 

@@ -8,8 +8,7 @@
 #include "modules/model_verifier/cylinder_refinement.h"
 #include "modules/model_verifier/end_evidence.h"
 #include "modules/model_verifier/refinement.h"
-#include "modules/scene_renderer/scene_renderer.h"
-#include "modules/scene_renderer/scene_text.h"
+#include "modules/model_verifier/test_scene.h"
 
 namespace declutter {
 namespace {
@@ -50,16 +49,6 @@ ObjectList Verify(const RenderedScene& scene, const std::vector<Hypothesis>& hyp
   list.hypotheses = hypotheses;
   return ModelVerifier(ModelVerifierConfig()).Verify(frame, list);
 }
-
-// A rendered scene with what is observed of it.
-struct ObservedScene {
-  explicit ObservedScene(const std::string& text) : scene(RenderText(text)) {
-    observed.Set(scene.depth, scene.table);
-  }
-
-  RenderedScene scene;
-  ObservedImage observed;
-};
 
 Solid RefineOn(const RenderedScene& scene, const Solid& solid) {
   ObservedImage observed;

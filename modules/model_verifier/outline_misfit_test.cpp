@@ -8,8 +8,7 @@
 
 #include "modules/model_verifier/extents.h"
 #include "modules/model_verifier/systematic_misfit.h"
-#include "modules/scene_renderer/scene_renderer.h"
-#include "modules/scene_renderer/scene_text.h"
+#include "modules/model_verifier/test_scene.h"
 
 namespace declutter {
 namespace {
@@ -17,10 +16,6 @@ namespace {
 // An object that is seen from almost straight above.
 class OutlineOf : public testing::TestWithParam<Shape> {
  protected:
-  OutlineOf() : scene_(Render(ParseScene(Text(), "scene"), 1)) {
-    observed_.Set(scene_.depth, scene_.table);
-  }
-
   static std::string Text() {
     return std::string(
                "camera { height_m: 0.9 pitch_rad: 1.5 } table { y_m: 0 } object { y_m: 0.05 "
@@ -30,7 +25,7 @@ class OutlineOf : public testing::TestWithParam<Shape> {
                 : "box { size_x_m: 0.07 size_y_m: 0.06 size_z_m: 0.1 } }");
   }
 
-  const Solid& truth() const { return scene_.objects[0].solid; }
+  const Solid& truth() const { return seen_.scene.objects[0].solid; }
   // A solid of the other shape in the same place.
   Solid other() const {
     Solid solid = truth();
@@ -42,17 +37,16 @@ class OutlineOf : public testing::TestWithParam<Shape> {
   }
 
   std::optional<double> Misfit(const Solid& solid) const {
-    const Observation observation = observed_.every_second_pixel();
+    const Observation observation = seen_.observed.every_second_pixel();
     return OutlineMisfit(solid, CastRays(solid, observation), observation);
   }
   double Share(const Solid& solid) const {
-    const Observation observation = observed_.every_second_pixel();
+    const Observation observation = seen_.observed.every_second_pixel();
     std::vector<Eigen::Vector3d> buffer;
     return MisfitShareOf(solid, CastRays(solid, observation), observation, &buffer);
   }
 
-  RenderedScene scene_;
-  ObservedImage observed_;
+  const ObservedScene seen_{Text()};
 };
 INSTANTIATE_TEST_SUITE_P(EachShape, OutlineOf, testing::Values(Shape::kBox, Shape::kCylinder));
 

@@ -4,8 +4,7 @@
 
 #include "modules/model_verifier/ray_casting.h"
 #include "modules/model_verifier/refinement.h"
-#include "modules/scene_renderer/scene_renderer.h"
-#include "modules/scene_renderer/scene_text.h"
+#include "modules/model_verifier/test_scene.h"
 
 namespace declutter {
 namespace {
@@ -53,21 +52,19 @@ constexpr char kScene[] =
     "object { box { size_x_m: 0.1 size_y_m: 0.06 size_z_m: 0.08 } x_m: -0.15 y_m: 0.6702 }";
 
 TEST(SeparateFits, KeepBoxesApartOfWhichOneContinuesTheOther) {
-  const RenderedScene scene = Render(ParseScene(kScene, "scene"), 1);
-  ObservedImage observed;
-  observed.Set(scene.depth, scene.table);
+  const ObservedScene seen(kScene);
   FitPoints buffer;
-  const Solid& truth = scene.objects[0].solid;
+  const Solid& truth = seen.scene.objects[0].solid;
   Solid together = truth;
-  for (int i = 0; i < 2; ++i) together = Refine(together, observed.every_pixel(), &buffer);
+  for (int i = 0; i < 2; ++i) together = Refine(together, seen.observed.every_pixel(), &buffer);
   EXPECT_GT(together.size.y(), truth.size.y() + 0.010);
 
-  const std::vector<Candidate> candidates = FitSeparately(SolidsIn(scene), observed);
+  const std::vector<Candidate> candidates = FitSeparately(SolidsIn(seen.scene), seen.observed);
   for (size_t i = 0; i < candidates.size(); ++i) {
     const Solid& solid = candidates[i].hypothesis.solid;
-    EXPECT_LT((solid.size - scene.objects[i].solid.size).cwiseAbs().maxCoeff(), 0.003) << i;
+    EXPECT_LT((solid.size - seen.scene.objects[i].solid.size).cwiseAbs().maxCoeff(), 0.003) << i;
     EXPECT_EQ(candidates[i].evidence.Balance(),
-              CastRays(solid, observed.every_second_pixel()).Balance());
+              CastRays(solid, seen.observed.every_second_pixel()).Balance());
   }
   EXPECT_NE(candidates[0].hypothesis.solid.size, truth.size);
 }
@@ -81,13 +78,11 @@ constexpr char kCanBetweenBoxes[] =
     "noise { model: \"white\" }";
 
 TEST(SeparateFits, LeaveToOthersWhatACylinderThatIsTooLargeReaches) {
-  const RenderedScene scene = Render(ParseScene(kCanBetweenBoxes, "scene"), 1);
-  ObservedImage observed;
-  observed.Set(scene.depth, scene.table);
-  std::vector<Solid> solids = SolidsIn(scene);
+  const ObservedScene seen(kCanBetweenBoxes);
+  std::vector<Solid> solids = SolidsIn(seen.scene);
   solids[0].size.head<2>().array() += 0.010;
   solids[0].X_CO.translation() += solids[0].X_CO.linear() * Eigen::Vector3d(0, 0.005, 0);
-  const Solid can = FitSeparately(solids, observed)[0].hypothesis.solid;
+  const Solid can = FitSeparately(solids, seen.observed)[0].hypothesis.solid;
   EXPECT_NEAR(can.radius(), 0.025, 0.001);
 }
 

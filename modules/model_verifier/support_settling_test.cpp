@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <string>
+
 #include "modules/model_verifier/extents.h"
-#include "modules/scene_renderer/scene_renderer.h"
-#include "modules/scene_renderer/scene_text.h"
+#include "modules/model_verifier/test_scene.h"
 
 namespace declutter {
 namespace {
@@ -15,14 +17,12 @@ class SupportSettlerTest : public testing::Test {
   static constexpr double kTinHeight = 0.07, kCartonHeight = 0.12;
 
   void Look(const std::string& place_of_carton) {
-    scene_ = Render(ParseScene("object { cylinder { radius_m: 0.09 height_m: 0.07 } y_m: 0.7 }"
-                               "object { box { size_x_m: 0.04 size_y_m: 0.06 size_z_m: 0.12 } " +
-                                   place_of_carton + " }",
-                               "scene"),
-                    1);
-    observed_.Set(scene_.depth, scene_.table);
-    tin_.solid = scene_.objects[0].solid;
-    carton_.solid = scene_.objects[1].solid;
+    seen_.emplace(
+        "object { cylinder { radius_m: 0.09 height_m: 0.07 } y_m: 0.7 }"
+        "object { box { size_x_m: 0.04 size_y_m: 0.06 size_z_m: 0.12 } " +
+        place_of_carton + " }");
+    tin_.solid = seen_->scene.objects[0].solid;
+    carton_.solid = seen_->scene.objects[1].solid;
     carton_.evidence[2] = Evidence::kAssumed;
   }
 
@@ -32,14 +32,14 @@ class SupportSettlerTest : public testing::Test {
     std::vector<ObjectModel> objects = {carton_, tin_};
     objects[0].solid = Longer(carton_.solid, 2, -1, sunk_m);
     SupportSettler settler;
-    settler.Settle(observed_.every_second_pixel(), &objects);
+    settler.Settle(seen_->observed.every_second_pixel(), &objects);
     supported_by_ = objects[1].supported_by;
-    EXPECT_NEAR(TopOf(objects[1].solid, scene_.table), TopOf(carton_.solid, scene_.table), 1e-9);
-    return BottomOf(objects[1].solid, scene_.table);
+    EXPECT_NEAR(TopOf(objects[1].solid, seen_->scene.table),
+                TopOf(carton_.solid, seen_->scene.table), 1e-9);
+    return BottomOf(objects[1].solid, seen_->scene.table);
   }
 
-  RenderedScene scene_;
-  ObservedImage observed_;
+  std::optional<ObservedScene> seen_;
   ObjectModel tin_, carton_;
   int32_t supported_by_ = -1;
 };
@@ -72,7 +72,7 @@ TEST_F(SupportSettlerTest, ExtendsToTheTableWhatShowsMoreOfItselfFurtherDown) {
   // There is no tin: it was proposed about the lower part of the carton.
   Look("y_m: 0.4");
   carton_.solid = Longer(carton_.solid, 2, -1, -0.05);
-  tin_.solid = scene_.objects[1].solid;
+  tin_.solid = seen_->scene.objects[1].solid;
   tin_.solid.size += Eigen::Vector3d(0.01, 0.01, 0);
   tin_.solid = Longer(tin_.solid, 2, 1, kTinHeight - kCartonHeight);
   EXPECT_NEAR(SettledBottom(0.02), 0, 1e-9);

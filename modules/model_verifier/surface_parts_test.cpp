@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "modules/geometry/plane.h"
-#include "modules/scene_renderer/scene_renderer.h"
-#include "modules/scene_renderer/scene_text.h"
+#include "modules/model_verifier/test_scene.h"
 
 namespace declutter {
 namespace {
@@ -14,10 +13,9 @@ using testing::SizeIs;
 
 // The parts of all objects of a scene.
 std::vector<SurfacePart> PartsOf(const std::string& objects) {
-  const RenderedScene scene = Render(ParseScene(objects, "scene"), 1);
-  ObservedImage observed;
-  observed.Set(scene.depth, scene.table);
-  const Observation observation = observed.every_second_pixel();
+  const ObservedScene seen(objects);
+  const RenderedScene& scene = seen.scene;
+  const Observation observation = seen.observed.every_second_pixel();
   const PixelGrid& grid = observation.grid;
   std::vector<uint8_t> is_marked(static_cast<size_t>(grid.num_pixels()), 0);
   for (int v = 0; v < grid.rows; ++v) {
