@@ -8,7 +8,6 @@
 #include "modules/model_verifier/surface_fit.h"
 
 namespace declutter {
-
 namespace {
 
 constexpr double kMinCos = 0.99;  // 8 degrees between sides of one plane

@@ -102,39 +102,35 @@ void SupportSettler::FindFloorsBelow(const std::vector<ObjectModel>& objects, si
   }
 }
 
+// The lowest of floors_ that a solid may reach down to without taking much free space.
+const SupportSettler::Floor& SupportSettler::LowestFloor(const Solid& solid, double bottom,
+                                                         const Observation& observation) {
+  CastRays(solid, observation, &seen_);
+  const double max_violating = seen_.num_violating + kMaxNewViolating * seen_.num_explained();
+  for (const Floor& floor : floors_) {
+    if (&floor == &floors_.back()) break;
+    CastRays(Longer(solid, 2, -1, bottom - floor.height), observation, &seen_);
+    if (seen_.num_violating <= max_violating) return floor;
+  }
+  return floors_.back();
+}
+
 void SupportSettler::Settle(const Observation& observation, std::vector<ObjectModel>* objects) {
   const Plane& support = observation.support;
   std::sort(objects->begin(), objects->end(), [&](const ObjectModel& a, const ObjectModel& b) {
     return TopOf(a.solid, support) < TopOf(b.solid, support);
   });
-  const auto num_violating = [&](const Solid& solid) {
-    CastRays(solid, observation, &seen_);
-    return seen_.num_violating;
-  };
   growth_.assign(objects->size(), 0);
   for (size_t i = 0; i < objects->size(); ++i) {
     ObjectModel& upper = (*objects)[i];
     const double bottom = BottomOf(upper.solid, support);
     FindFloorsBelow(*objects, i, bottom, observation);
-    if (upper.evidence[2] != Evidence::kAssumed) {
-      const Floor& floor = floors_.back();
-      upper.supported_by = floor.supported_by;
-      if (floor.height > bottom + kSupportTolerance) {
-        growth_[i] = bottom - floor.height;
-        upper.solid = Longer(upper.solid, 2, -1, growth_[i]);
-      }
-      continue;
-    }
-    CastRays(upper.solid, observation, &seen_);
-    const double max_violating = seen_.num_violating + kMaxNewViolating * seen_.num_explained();
-    for (const Floor& floor : floors_) {
-      const Solid extended = Longer(upper.solid, 2, -1, bottom - floor.height);
-      if (&floor != &floors_.back() && num_violating(extended) > max_violating) continue;
-      growth_[i] = bottom - floor.height;
-      upper.solid = extended;
-      upper.supported_by = floor.supported_by;
-      break;
-    }
+    const bool was_seen = upper.evidence[2] != Evidence::kAssumed;
+    const Floor& floor = was_seen ? floors_.back() : LowestFloor(upper.solid, bottom, observation);
+    upper.supported_by = floor.supported_by;
+    if (was_seen && floor.height <= bottom + kSupportTolerance) continue;
+    growth_[i] = bottom - floor.height;
+    upper.solid = Longer(upper.solid, 2, -1, growth_[i]);
   }
 }
 

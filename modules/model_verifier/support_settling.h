@@ -33,6 +33,7 @@ class SupportSettler {
   void FindFloorsBelow(const std::vector<ObjectModel>& objects, size_t index, double bottom,
                        const Observation& observation);
   bool IsSunkIn(const Solid& lower, const Solid& upper, const Observation& observation);
+  const Floor& LowestFloor(const Solid& solid, double bottom, const Observation& observation);
 
   std::vector<Floor> floors_;  // lowest first
   std::vector<double> growth_;
